@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Published laws for the collapse of columns, and the quasi-static bound, as functions of the aspect
+// ratio a = height / radius (channel: height / length). Sources and how sure each is: data/experiments.
+#pragma once
+#include "host/scene.hpp"
+
+namespace drivers {
+
+/// One law's answer; `runout` is (r_f - r0)/r0, `height` h_f/r0; NaN where the law says nothing.
+struct LawValue {
+  std::string source;
+  double height, runout;
+};
+
+/// The laws for this geometry, and in axisymmetry the cone at the friction angle (degrees) that keeps the
+/// volume.
+std::vector<LawValue> column_laws(host::GeometryKind geometry, double aspect_ratio, double friction_angle);
+
+} // namespace drivers

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/recorder.hpp"
+#include "drivers/version.hpp"
+#include "host/geometry.hpp"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace drivers {
+namespace {
+
+const std::vector<host::Quantity> series_quantities{{"time", "s"},
+                                                    {"height", "m"},
+                                                    {"front_radius", "m"},
+                                                    {"kinetic_energy", "J"},
+                                                    {"potential_energy", "J"},
+                                                    {"work_stress", "J"},
+                                                    {"work_viscosity", "J"},
+                                                    {"work_wall", "J"},
+                                                    {"work_friction", "J"},
+                                                    {"internal_energy", "J"},
+                                                    {"inelastic_energy", "J"},
+                                                    {"energy_imbalance", "1"},
+                                                    {"step_size", "s"}};
+
+std::vector<double> as_row(const Sample& s) {
+  return {s.time,      s.height,        s.front,    s.kinetic,   s.potential, s.work.stress, s.work.viscosity,
+          s.work.wall, s.work.friction, s.internal, s.inelastic, s.imbalance, s.step_size};
+}
+
+/// Outline samples reach as far as grains of any deposit seen: three column heights past the column.
+double outline_reach(const host::Scene& scene) {
+  return scene.column.radius + 3 * scene.column.height;
+}
+
+template <class Geometry> host::ResultHeader header_of(const host::Simulation<Geometry>& s) {
+  return {s.scene.resolved,
+          version,
+          compiler,
+          Geometry::name,
+          Geometry::dimension,
+          std::size_t(s.particles.count)};
+}
+
+std::span<const double> view(const host::Array& a, int count) {
+  return {a.data(), std::size_t(count)};
+}
+
+template <std::size_t N>
+std::vector<std::span<const double>> views(const std::array<host::Array, N>& arrays, int count) {
+  std::vector<std::span<const double>> all;
+  for (const auto& a : arrays) all.push_back(view(a, count));
+  return all;
+}
+
+double total_of(const host::Array& per_mass, const host::Array& mass, int count) {
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += per_mass[i] * mass[i];
+  return sum;
+}
+
+} // namespace
+
+template <class Geometry>
+Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
+    : abscissa(host::outline_radii(s.scene.spacing, outline_reach(s.scene))),
+      result(std::filesystem::path(s.scene.output_folder) / "result.h5", header_of(s), series_quantities) {
+  const auto& p = s.particles;
+  const std::vector<host::Field> fields{{"mass", "kg", {view(p.mass, p.count)}},
+                                        {"initial_position", "m", views(p.initial_position, p.count)}};
+  result.particles(fields, std::span(p.id).first(p.count));
+  result.outline_radii(abscissa);
+  std::ofstream(std::filesystem::path(s.scene.output_folder) / "scene.toml") << s.scene.resolved;
+}
+
+template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation<Geometry>& s) {
+  const auto& p = s.particles;
+  heights = host::outline(p, s.kernel, abscissa);
+  Sample now;
+  now.time = s.time;
+  now.height = host::outline_height(heights);
+  now.front = host::front_radius(abscissa, heights, s.scene.grain_diameter);
+  now.kinetic = host::kinetic_energy(p);
+  now.potential = host::potential_energy(p, s.scene.gravity);
+  now.work = s.work;
+  now.internal = total_of(p.internal_energy, p.mass, p.count);
+  now.inelastic = total_of(p.inelastic_energy, p.mass, p.count);
+  now.imbalance = (now.kinetic + now.potential - s.initial_potential_energy - s.work.total()) /
+                  s.initial_potential_energy;
+  now.step_size = s.dt;
+  const auto row = as_row(now);
+  result.sample(row);
+
+  const bool cleared = s.scene.gate.lower_edge(s.time) > s.scene.column.height;
+  const bool still = !series.empty() && std::abs(now.height - series.back().height) < 1e-3 * s.scene.spacing;
+  const bool slow = now.kinetic < s.scene.rest_fraction * s.initial_potential_energy;
+  if (!rest_time && cleared && still && slow) rest_time = s.time;
+  series.push_back(now);
+}
+
+template <class Geometry> void Recorder<Geometry>::observe(const host::Simulation<Geometry>& s) {
+  if (s.time >= next_sample) {
+    sample(s);
+    next_sample += s.scene.sample_interval;
+  }
+  if (s.time >= next_snapshot) {
+    write_snapshot(s);
+    next_snapshot += s.scene.snapshot_interval;
+  }
+}
+
+template <class Geometry> void Recorder<Geometry>::write_snapshot(const host::Simulation<Geometry>& s) {
+  if (s.time == last_snapshot) return;
+  last_snapshot = s.time;
+  const auto& p = s.particles;
+  std::vector<host::Field> fields{{"position", "m", views(p.position, p.count)},
+                                  {"velocity", "m/s", views(p.velocity, p.count)},
+                                  {"stress", "Pa", views(p.stress, p.count)},
+                                  {"density", "kg/m3", {view(p.density, p.count)}}};
+  for (std::size_t v = 0; v < p.state.size(); ++v)
+    fields.push_back({"state_" + s.scene.state_names[v], "1", {view(p.state[v], p.count)}});
+  heights = host::outline(p, s.kernel, abscissa);
+  result.snapshot(s.time, fields, std::span(p.id).first(p.count), heights);
+}
+
+template <class Geometry>
+void Recorder<Geometry>::finish(const host::Simulation<Geometry>& s,
+                                std::span<const std::pair<host::Quantity, double>> summary) {
+  write_snapshot(s);
+  for (const auto& [quantity, value] : summary) result.summary(quantity, value);
+  result.close();
+}
+
+template class Recorder<host::PlaneStrain>;
+template class Recorder<host::Axisymmetric>;
+
+} // namespace drivers

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Watches a run: samples its time series, writes snapshots to the result file, tells when it is at rest,
+// and reads the results off the final state.
+#pragma once
+#include "host/metrics.hpp"
+#include "host/output.hpp"
+#include "host/simulation.hpp"
+#include <optional>
+
+namespace drivers {
+
+/// One row of the time series; units in `series_quantities`.
+struct Sample {
+  double time = 0, height = 0, front = 0;
+  double kinetic = 0, potential = 0;
+  host::Work work;
+  double internal = 0, inelastic = 0;
+  double imbalance = 0; ///< (kinetic + potential - initial potential - work) / initial potential
+  double step_size = 0;
+};
+
+template <class Geometry> class Recorder {
+public:
+  explicit Recorder(const host::Simulation<Geometry>& simulation);
+
+  /// Samples and writes what is due at the current time.
+  void observe(const host::Simulation<Geometry>& simulation);
+  /// Writes a snapshot now, unless the last one is of this time.
+  void write_snapshot(const host::Simulation<Geometry>& simulation);
+  /// True once the energy is below the scene's fraction, the height stands still between two samples
+  /// and the gate has cleared the column.
+  bool at_rest() const { return rest_time.has_value(); }
+  /// Writes the summary and closes the file as complete.
+  void finish(const host::Simulation<Geometry>& simulation,
+              std::span<const std::pair<host::Quantity, double>> summary);
+
+  const std::vector<Sample>& samples() const { return series; }
+  const std::vector<double>& outline() const { return heights; }
+  const std::vector<double>& radii() const { return abscissa; }
+  std::optional<double> time_to_rest() const { return rest_time; }
+  std::string file() const { return result.path().string(); }
+
+private:
+  void sample(const host::Simulation<Geometry>& simulation);
+
+  std::vector<double> abscissa, heights;
+  std::vector<Sample> series;
+  std::optional<double> rest_time;
+  double next_sample = 0, next_snapshot = 0, last_snapshot = -1;
+  host::ResultFile result;
+};
+
+} // namespace drivers

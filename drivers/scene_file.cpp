@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/scene_file.hpp"
+#include "drivers/material_file.hpp"
+#include "drivers/toml_table.hpp"
+#include "host/output.hpp"
+#include "vumat/parameters.hpp"
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+namespace drivers {
+namespace {
+
+void read_material(const TomlTable& root, host::Scene& scene) {
+  const auto loaded = read_material(root.table("material"));
+  scene.material = loaded.material;
+  scene.state_names = loaded.state_names;
+  scene.initial_state = loaded.initial_state;
+  scene.failure_state = loaded.failure_state;
+  scene.bulk_density = loaded.bulk_density;
+}
+
+/// Friction angle of the critical state, degrees, where the material is SIMSAND; else 0.
+double friction_angle(const TomlTable& root, const host::Scene& scene) {
+  if (root.table("material").has("properties")) return 0;
+  return scene.material.properties[simsand::parameter_index("phi")];
+}
+
+void read_initial_stress(const TomlTable& root, host::Scene& scene) {
+  const auto table = root.table_or_empty("initial_stress");
+  std::optional<double> at_rest; // Jaky 1944: K0 = 1 - sin(phi)
+  if (scene.friction_angle > 0) at_rest = 1 - std::sin(scene.friction_angle * std::numbers::pi / 180);
+  scene.earth_pressure_ratio = table.number("K0", {0, 10}, at_rest);
+}
+
+void read_walls(const TomlTable& root, host::Scene& scene) {
+  const auto friction = root.table("floor").number_or_word("friction", {0, 10}, {"no-slip"});
+  scene.floor.no_slip = std::holds_alternative<std::string>(friction);
+  if (!scene.floor.no_slip) scene.floor.friction = std::get<double>(friction);
+
+  const auto gate = root.table("gate");
+  const auto motion = gate.text("motion", {"lift", "remove", "fixed"});
+  scene.gate.motion = motion == "lift"     ? host::GateMotion::lift
+                      : motion == "remove" ? host::GateMotion::remove
+                                           : host::GateMotion::fixed;
+  if (scene.gate.motion == host::GateMotion::lift) scene.gate.speed = gate.number("speed", positive);
+}
+
+void read_numerics(const TomlTable& root, host::Numerics& numerics) {
+  const auto table = root.table_or_empty("numerics");
+  numerics.smoothing_length = table.number("smoothing_length", {1.1, 3}, numerics.smoothing_length);
+  numerics.viscosity = table.number("viscosity", {0, 10}, numerics.viscosity);
+  numerics.stress_diffusion = table.number("stress_diffusion", {0, 1}, numerics.stress_diffusion);
+  numerics.step_factor = table.number("step_factor", {1e-4, 1}, numerics.step_factor);
+  numerics.skin = table.number("skin", {0.01, 3}, numerics.skin);
+}
+
+} // namespace
+
+host::Scene read_scene(const std::string& path) {
+  const bool stored = std::filesystem::path(path).extension() == ".h5";
+  const auto root = stored ? parse_toml(host::stored_scene(path), path, ".") : read_toml(path);
+  host::Scene scene;
+  const auto general = root.table("scene");
+  scene.geometry = general.text("geometry", {"axisymmetric", "plane_strain"}) == "axisymmetric"
+                       ? host::GeometryKind::axisymmetric
+                       : host::GeometryKind::plane_strain;
+  scene.spacing = general.number("spacing", {1e-6, 1e3});
+  scene.gravity = general.number("gravity", {1e-3, 1e3}, 9.81);
+  const auto column = root.table("column");
+  scene.column = {column.number("radius", {1e-6, 1e4}), column.number("height", {1e-6, 1e4})};
+  read_material(root, scene);
+  scene.friction_angle = friction_angle(root, scene);
+  read_initial_stress(root, scene);
+  read_walls(root, scene);
+  read_numerics(root, scene.numerics);
+  const auto end = root.table("end");
+  scene.end_time = end.number("time", positive);
+  scene.rest_fraction = end.number("kinetic_energy_fraction", {0, 1}, 1e-6);
+  const auto output = root.table("output");
+  scene.output_folder = output.text("folder");
+  scene.sample_interval = output.number("sample_interval", positive);
+  scene.snapshot_interval = output.number("snapshot_interval", positive);
+  scene.grain_diameter = output.number("grain_diameter", positive);
+  root.finish();
+  scene.resolved = root.resolved();
+  return scene;
+}
+
+} // namespace drivers

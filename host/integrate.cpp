@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/integrate.hpp"
+#include "host/geometry.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace host {
+namespace {
+
+/// Change of a tangential `velocity` by friction, for a normal change of velocity of `normal`: at most what
+/// stops it.
+double friction_change(const Floor& floor, double normal, double velocity) {
+  const double most = floor.no_slip ? std::abs(velocity) : floor.friction * std::max(normal, 0.0);
+  return -std::copysign(std::min(most, std::abs(velocity)), velocity);
+}
+
+/// True if the particle, now at `from`, is on the side of the mirror where the mirror acts.
+template <int D> bool faces(const Mirror& mirror, const double (&from)[D], const double (&to)[D]) {
+  if (mirror.axis == D - 1) return true;
+  const double depth = (mirror.positive_side ? 1 : -1) * (from[mirror.axis] - mirror.position);
+  return depth >= 0 && to[D - 1] >= mirror.lower_edge;
+}
+
+/// Keeps `x` at least `gap` away from the mirror and stops `v` towards it; false if nothing was to do.
+template <int D> bool hold_back(const Mirror& mirror, double gap, double (&x)[D], double (&v)[D]) {
+  const int a = mirror.axis;
+  const double side = mirror.positive_side ? 1 : -1;
+  if (side * (x[a] - mirror.position) >= gap) return false;
+  x[a] = mirror.position + side * gap;
+  if (side * v[a] < 0) v[a] = 0;
+  return true;
+}
+
+template <int D> double half_square(const double (&v)[D]) {
+  double sum = 0;
+  for (const double component : v) sum += 0.5 * component * component;
+  return sum;
+}
+
+/// The contact of one particle (from `from` to `x` at `v`) with all mirrors, booked in `work`.
+template <int D>
+void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double mass, const double (&from)[D],
+                 double (&x)[D], double (&v)[D], Work& work) {
+  constexpr int up = D - 1;
+  for (const Mirror& mirror : mirrors) {
+    const double height = x[up], energy = half_square(v), normal_velocity = v[mirror.axis];
+    if (!faces(mirror, from, x)) continue;
+    if (!hold_back(mirror, (mirror.wall ? contact_gap : axis_gap) * scene.spacing, x, v)) continue;
+    ++work.guarded;
+    work.wall += mass * (half_square(v) - energy + scene.gravity * (x[up] - height));
+    if (mirror.axis != up) continue;
+    const double before = half_square(v);
+    for (int a = 0; a < up; ++a) v[a] += friction_change(scene.floor, v[up] - normal_velocity, v[a]);
+    work.friction += mass * (half_square(v) - before);
+  }
+}
+
+} // namespace
+
+void Work::add(const Work& other) {
+  stress += other.stress;
+  viscosity += other.viscosity;
+  wall += other.wall;
+  friction += other.friction;
+  guarded += other.guarded;
+}
+
+template <class Geometry>
+Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors, double reach,
+               double dt) {
+  constexpr int D = Geometry::dimension, up = D - 1;
+  std::vector<Work> of_cluster(p.clusters()); // summed in order below: the same for any number of threads
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < p.clusters(); ++c)
+    for (int i = c * lanes; i < std::min((c + 1) * lanes, p.count); ++i) {
+      Work& work = of_cluster[c];
+      double from[D], x[D], before[D], v[D], by_friction[D]{};
+      for (int a = 0; a < D; ++a) {
+        from[a] = p.position[a][i];
+        before[a] = p.velocity[a][i];
+        v[a] = before[a] + dt * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
+                                 p.wall_acceleration[a][i] - (a == up ? scene.gravity : 0));
+      }
+      if (!scene.floor.no_slip && from[up] < reach)
+        for (int a = 0; a < up; ++a) {
+          by_friction[a] = friction_change(scene.floor, dt * p.wall_acceleration[up][i], v[a]);
+          v[a] += by_friction[a];
+        }
+      for (int a = 0; a < D; ++a) {
+        const double impulse = p.mass[i] * 0.5 * (before[a] + v[a]);
+        work.stress += impulse * dt * p.stress_acceleration[a][i];
+        work.viscosity += impulse * dt * p.viscous_acceleration[a][i];
+        work.wall += impulse * dt * p.wall_acceleration[a][i];
+        work.friction += impulse * by_friction[a];
+        x[a] = from[a] + dt * v[a];
+      }
+      touch_walls(scene, mirrors, p.mass[i], from, x, v, work);
+      for (int a = 0; a < D; ++a) {
+        p.velocity[a][i] = v[a];
+        p.position[a][i] = x[a];
+      }
+    }
+  Work all;
+  for (const Work& work : of_cluster) all.add(work);
+  return all;
+}
+
+template <class Geometry> double kinetic_energy(const Particles<Geometry>& p) {
+  double sum = 0;
+  for (int i = 0; i < p.count; ++i) {
+    double square = 0;
+    for (const auto& v : p.velocity) square += v[i] * v[i];
+    sum += 0.5 * p.mass[i] * square;
+  }
+  return sum;
+}
+
+template <class Geometry> double potential_energy(const Particles<Geometry>& p, double gravity) {
+  double sum = 0;
+  for (int i = 0; i < p.count; ++i) sum += p.mass[i] * gravity * p.position[Geometry::dimension - 1][i];
+  return sum;
+}
+
+template Work integrate(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double, double);
+template Work integrate(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&, double, double);
+template double kinetic_energy(const Particles<PlaneStrain>&);
+template double kinetic_energy(const Particles<Axisymmetric>&);
+template double potential_energy(const Particles<PlaneStrain>&, double);
+template double potential_energy(const Particles<Axisymmetric>&, double);
+
+} // namespace host

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an engineer reads off a deposit: its outline, height, front, volume, void ratios.
+#pragma once
+#include "host/kernel.hpp"
+#include "host/particles.hpp"
+#include <span>
+
+namespace host {
+
+/// Radii (plane strain: horizontal coordinates) at which an outline is sampled, m.
+std::vector<double> outline_radii(double spacing, double largest);
+
+/// Height of the surface over each radius, m: the uppermost point where the particles fill half of the
+/// kernel, sum_j V_j W = 1/2 with images across axis and floor, so single grains in flight do not count.
+template <class Geometry>
+std::vector<double> outline(const Particles<Geometry>& particles, const Kernel<2>& kernel,
+                            std::span<const double> radii);
+
+/// Largest height of an outline.
+double outline_height(std::span<const double> outline);
+
+/// Outermost radius at which the outline is `thickness` high, interpolated; 0 if it is nowhere.
+double front_radius(std::span<const double> radii, std::span<const double> outline, double thickness);
+
+/// Volume under an outline, m3 (plane strain: of the half that is simulated, m2).
+template <class Geometry>
+double outline_volume(std::span<const double> radii, std::span<const double> outline);
+
+/// Smallest, mean and largest of a quantity over the particles that carry at least `least_pressure`, Pa,
+/// weighted by mass; and how many those are.
+struct Spread {
+  double least = 0, mean = 0, most = 0;
+  int particles = 0;
+};
+template <class Geometry>
+Spread spread_of(const Particles<Geometry>& particles, std::span<const double> quantity,
+                 double least_pressure);
+
+/// Mean stress, Pa, compression positive.
+template <class Geometry> double mean_pressure(const Particles<Geometry>& p, int i) {
+  return -(p.stress[0][i] + p.stress[1][i] + p.stress[2][i]) / 3;
+}
+
+} // namespace host

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/momentum.hpp"
+#include "host/geometry.hpp"
+
+namespace host {
+namespace {
+
+/// The eight particles of a cluster, from their records.
+template <class Geometry>
+PairSide<Geometry, Lane> gather_cluster(const StressRecord<Geometry>* records, int used) {
+  constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+  PairSide<Geometry, Lane> side;
+  for (int l = 0; l < lanes; ++l) {
+    const auto& r = records[std::min(l, used - 1)]; // padding repeats the last particle
+    for (int a = 0; a < D; ++a) {
+      side.position[a][l] = r.position[a];
+      side.velocity[a][l] = r.velocity[a];
+    }
+    side.weight[l] = r.weight;
+    side.density[l] = r.density;
+    side.wave_speed[l] = r.wave_speed;
+    for (int e = 0; e < D * D; ++e) {
+      side.flux[e][l] = r.flux[e];
+      side.gradient[e][l] = r.gradient[e];
+    }
+    for (int s = 0; s < S; ++s) side.reduced_stress[s][l] = r.reduced_stress[s];
+  }
+  return side;
+}
+
+} // namespace
+
+template <class Geometry>
+void update_acceleration(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
+                         const NeighbourLists& lists, const Records<Geometry>& records,
+                         const Numerics& numerics) {
+  constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < p.clusters(); ++c) {
+    const int first = c * lanes;
+    const auto i = gather_cluster(&records.stress[first], std::min(lanes, p.count - first));
+    Lane stress[D]{}, viscous[D]{}, wall[D]{}, diffusion[S]{};
+    const int* neighbour = lists.begin(c);
+    for (int k = 0; k < lists.interior[c]; ++k) {
+      const auto& j = records.stress[neighbour[k]];
+      const auto pair = make_pair(kernel, i, j);
+      add_stress_force(pair, i, j, stress);
+      add_viscous_force(kernel, numerics.viscosity, pair, i, j, viscous);
+      add_stress_diffusion(pair, i, j, diffusion);
+    }
+    for (int k = lists.interior[c]; k < lists.total[c]; ++k) {
+      const auto& j = records.stress[neighbour[k]];
+      const auto pair = make_pair(kernel, i, j);
+      add_stress_force(pair, i, j, wall);
+      add_viscous_force(kernel, numerics.viscosity, pair, i, j, wall);
+    }
+    const Lane scale = 1.0 / (i.density * i.weight);
+    for (int a = 0; a < D; ++a) {
+      Lane by_stress = stress[a] * scale;
+      if (Geometry::hoop && a == 0) by_stress -= load(&p.stress[2][first]) * scale;
+      store(&p.stress_acceleration[a][first], by_stress);
+      store(&p.viscous_acceleration[a][first], viscous[a] * scale);
+      store(&p.wall_acceleration[a][first], wall[a] * scale);
+    }
+    const Lane twice_diffusivity =
+        2 * stress_diffusivity(numerics.stress_diffusion, kernel.h, i.wave_speed, i.gradient);
+    for (int s = 0; s < S; ++s) store(&p.stress_diffusion[s][first], diffusion[s] * twice_diffusivity);
+  }
+}
+
+template void update_acceleration(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&,
+                                  const Records<PlaneStrain>&, const Numerics&);
+template void update_acceleration(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&,
+                                  const Records<Axisymmetric>&, const Numerics&);
+
+} // namespace host

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/neighbours.hpp"
+#include "host/geometry.hpp"
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace host {
+namespace {
+
+/// Interleaves the low 31 bits of two numbers.
+std::uint64_t morton(const std::array<std::uint32_t, 2>& cell) {
+  const auto spread = [](std::uint64_t v) {
+    v = (v | (v << 16)) & 0x0000ffff0000ffffULL;
+    v = (v | (v << 8)) & 0x00ff00ff00ff00ffULL;
+    v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0fULL;
+    v = (v | (v << 2)) & 0x3333333333333333ULL;
+    return (v | (v << 1)) & 0x5555555555555555ULL;
+  };
+  return spread(cell[0]) | (spread(cell[1]) << 1);
+}
+
+/// Square cells over all records, records of a cell contiguous in `sorted`.
+template <int D> struct CellGrid {
+  std::array<double, D> lower;
+  std::array<int, D> cells;
+  double size;
+  std::vector<int> start, sorted;
+
+  std::array<int, D> cell_of(const double* x) const {
+    std::array<int, D> c;
+    for (int a = 0; a < D; ++a) c[a] = std::clamp(int((x[a] - lower[a]) / size), 0, cells[a] - 1);
+    return c;
+  }
+  int index(const std::array<int, D>& c) const {
+    int i = c[D - 1];
+    for (int a = D - 2; a >= 0; --a) i = i * cells[a] + c[a];
+    return i;
+  }
+};
+
+constexpr int largest_grid = 1 << 22;
+
+template <class Geometry>
+CellGrid<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, const Images& images,
+                                              const Records<Geometry>& records, double size) {
+  constexpr int D = Geometry::dimension;
+  CellGrid<D> grid;
+  std::vector<int> all(p.count + images.list.size());
+  std::iota(all.begin(), all.begin() + p.count, 0);
+  std::iota(all.begin() + p.count, all.end(), images.first);
+  std::array<double, D> upper;
+  grid.lower.fill(nowhere);
+  upper.fill(-nowhere);
+  for (int j : all)
+    for (int a = 0; a < D; ++a) {
+      grid.lower[a] = std::min(grid.lower[a], records.motion[j].position[a]);
+      upper[a] = std::max(upper[a], records.motion[j].position[a]);
+    }
+  double cells = 0;
+  for (grid.size = size;; grid.size *= 2) { // a few stray particles far away must not cost memory
+    cells = 1;
+    for (int a = 0; a < D; ++a) cells *= std::floor((upper[a] - grid.lower[a]) / grid.size) + 1;
+    if (cells <= largest_grid) break;
+  }
+  for (int a = 0; a < D; ++a) grid.cells[a] = int((upper[a] - grid.lower[a]) / grid.size) + 1;
+
+  std::vector<int> cell(all.size());
+  grid.start.assign(std::size_t(cells) + 1, 0);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    cell[k] = grid.index(grid.cell_of(records.motion[all[k]].position));
+    ++grid.start[cell[k] + 1];
+  }
+  std::partial_sum(grid.start.begin(), grid.start.end(), grid.start.begin());
+  grid.sorted.resize(all.size());
+  std::vector<int> next(grid.start.begin(), grid.start.end() - 1);
+  for (std::size_t k = 0; k < all.size(); ++k) grid.sorted[next[cell[k]]++] = all[k];
+  return grid;
+}
+
+} // namespace
+
+template <class Geometry> void sort_particles(Particles<Geometry>& p, double cell) {
+  constexpr int D = Geometry::dimension;
+  constexpr double most = double((1u << 31) - 1);
+  std::array<double, D> lower;
+  for (int a = 0; a < D; ++a)
+    lower[a] = *std::min_element(p.position[a].begin(), p.position[a].begin() + p.count);
+  std::vector<std::pair<std::uint64_t, int>> order(p.count);
+  for (int i = 0; i < p.count; ++i) {
+    std::array<std::uint32_t, D> c;
+    for (int a = 0; a < D; ++a) c[a] = std::uint32_t(std::min((p.position[a][i] - lower[a]) / cell, most));
+    order[i] = {morton(c), i};
+  }
+  // Ties by creation order, so that the result depends on nothing but the positions.
+  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : p.id[a.second] < p.id[b.second];
+  });
+  const auto permute = [&](auto& array) {
+    auto old = array;
+    for (int i = 0; i < p.count; ++i) array[i] = old[order[i].second];
+  };
+  permute(p.id);
+  p.each_persistent(permute);
+}
+
+template <class Geometry>
+void find_neighbours(const Particles<Geometry>& p, const Images& images, const Records<Geometry>& records,
+                     double reach, NeighbourLists& lists) {
+  constexpr int D = Geometry::dimension;
+  const auto grid = sort_into_cells(p, images, records, reach);
+  lists.interior.resize(p.clusters());
+  lists.total.resize(p.clusters());
+  for (bool fits = false; !fits; lists.capacity *= fits ? 1 : 2) {
+    lists.entries.resize(std::size_t(p.clusters()) * lists.capacity);
+    int longest = 0;
+#pragma omp parallel for schedule(static) reduction(max : longest)
+    for (int c = 0; c < p.clusters(); ++c) {
+      const int first = c * lanes, used = std::min(lanes, p.count - first);
+      std::array<Lane, D> x;
+      std::array<int, D> from, to;
+      for (int a = 0; a < D; ++a) x[a] = load(&p.position[a][first]);
+      double lower[D], upper[D];
+      for (int a = 0; a < D; ++a) {
+        lower[a] = *std::min_element(&p.position[a][first], &p.position[a][first] + used) - reach;
+        upper[a] = *std::max_element(&p.position[a][first], &p.position[a][first] + used) + reach;
+      }
+      from = grid.cell_of(lower);
+      to = grid.cell_of(upper);
+      int* out = lists.entries.data() + std::size_t(c) * lists.capacity;
+      for (const bool wall : {false, true}) {
+        int n = wall ? lists.interior[c] : 0;
+        for (auto cell = from; cell[D - 1] <= to[D - 1]; ++cell[D - 1])
+          for (cell[0] = from[0]; cell[0] <= to[0]; ++cell[0])
+            for (int k = grid.start[grid.index(cell)]; k < grid.start[grid.index(cell) + 1]; ++k) {
+              const int j = grid.sorted[k];
+              if ((j >= images.first_wall) != wall) continue;
+              Lane r2{};
+              for (int a = 0; a < D; ++a) {
+                const Lane dx = x[a] - records.motion[j].position[a];
+                r2 += dx * dx;
+              }
+              double nearest = r2[0];
+              for (int l = 1; l < lanes; ++l) nearest = std::min(nearest, r2[l]);
+              if (nearest > reach * reach) continue;
+              if (n < lists.capacity) out[n] = j;
+              ++n;
+            }
+        (wall ? lists.total : lists.interior)[c] = n;
+        longest = std::max(longest, n);
+      }
+    }
+    fits = longest <= lists.capacity;
+  }
+}
+
+template <class Geometry>
+double largest_displacement(const Particles<Geometry>& p,
+                            const std::array<Array, Geometry::dimension>& reference) {
+  double largest = 0;
+#pragma omp parallel for schedule(static) reduction(max : largest)
+  for (int i = 0; i < p.count; ++i) {
+    double square = 0;
+    for (int a = 0; a < Geometry::dimension; ++a) {
+      const double d = p.position[a][i] - reference[a][i];
+      square += d * d;
+    }
+    largest = std::max(largest, square);
+  }
+  return std::sqrt(largest);
+}
+
+template void sort_particles(Particles<PlaneStrain>&, double);
+template void sort_particles(Particles<Axisymmetric>&, double);
+template void find_neighbours(const Particles<PlaneStrain>&, const Images&, const Records<PlaneStrain>&,
+                              double, NeighbourLists&);
+template void find_neighbours(const Particles<Axisymmetric>&, const Images&, const Records<Axisymmetric>&,
+                              double, NeighbourLists&);
+template double largest_displacement(const Particles<PlaneStrain>&, const std::array<Array, 2>&);
+template double largest_displacement(const Particles<Axisymmetric>&, const std::array<Array, 2>&);
+
+} // namespace host

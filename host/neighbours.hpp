@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles in Morton order and one neighbour list for each cluster of eight. Lists reach beyond the
+// support by a skin and hold until a particle has moved half of it.
+#pragma once
+#include "host/mirrors.hpp"
+
+namespace host {
+
+/// Record indices of the neighbours of each cluster: particles and images across the axis first, then
+/// images behind walls. Entries of cluster c start at c * capacity.
+struct NeighbourLists {
+  int capacity = 64;
+  std::vector<int> entries, interior, total; ///< the two counts are per cluster
+
+  const int* begin(int cluster) const { return entries.data() + std::size_t(cluster) * capacity; }
+};
+
+/// Sorts the particles in space: along a Morton curve of cells of `cell`, m.
+template <class Geometry> void sort_particles(Particles<Geometry>& particles, double cell);
+
+/// Lists, for each cluster, all records within `reach` of one of its particles. Reads `records.motion`.
+template <class Geometry>
+void find_neighbours(const Particles<Geometry>& particles, const Images& images,
+                     const Records<Geometry>& records, double reach, NeighbourLists& lists);
+
+/// Largest displacement, m, from `reference`.
+template <class Geometry>
+double largest_displacement(const Particles<Geometry>& particles,
+                            const std::array<Array, Geometry::dimension>& reference);
+
+} // namespace host

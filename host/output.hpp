@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The result of a run: one HDF5 file and an XDMF side file with which ParaView opens it. The schema is
+// in host/OUTPUT.md. Every snapshot and every sample is on disk when its call returns, so whatever was
+// computed stays readable when the run ends early, by an exception or by a signal.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace host {
+
+/// What is known before the first step.
+struct ResultHeader {
+  std::string scene;    ///< the resolved scene, TOML: a run of this text gives the same numbers
+  std::string version;  ///< of the program
+  std::string compiler; ///< compiler and its flags
+  std::string geometry; ///< "axisymmetric" or "plane_strain"
+  int dimension = 2;
+  std::size_t particles = 0; ///< length of every particle dataset
+};
+
+/// A column of the time series or a quantity of the summary.
+struct Quantity {
+  std::string name, unit;
+};
+
+/// A particle quantity: one view per component, all of the same length.
+struct Field {
+  std::string name, unit;
+  std::vector<std::span<const double>> components;
+};
+
+/// Throws std::runtime_error with one line that names the file, whatever goes wrong.
+class ResultFile {
+public:
+  /// Creates missing folders and the file (an older one is replaced), writes the header.
+  ResultFile(const std::filesystem::path& path, const ResultHeader& header,
+             const std::vector<Quantity>& series);
+  /// Closes without the mark of completeness.
+  ~ResultFile();
+
+  /// Constant particle data: mass, initial_position. Order of rows as for `snapshot`.
+  void particles(std::span<const Field> fields, std::span<const std::int32_t> original = {});
+  /// Radii of the outline, m: the abscissa of every snapshot's outline.
+  void outline_radii(std::span<const double> radii);
+  /// State of all particles; `position` must be among the fields. Row i belongs to the particle that
+  /// was created as number original[i]; rows with a negative number are padding. Without `original` row i is
+  /// particle i. `outline` is the surface height at the outline's radii, m, or empty.
+  void snapshot(double time, std::span<const Field> fields, std::span<const std::int32_t> original = {},
+                std::span<const double> outline = {});
+  /// One row of the time series, a value for each column.
+  void sample(std::span<const double> row);
+  /// A scalar result; a second value under the same name replaces the first.
+  void summary(const Quantity& quantity, double value);
+  /// Marks the run as complete and closes both files.
+  void close();
+
+  const std::filesystem::path& path() const;
+  std::filesystem::path xdmf_path() const; ///< beside the HDF5 file, extension .xdmf
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl;
+};
+
+/// The resolved scene in a result file. Throws std::runtime_error naming the file.
+std::string stored_scene(const std::filesystem::path& path);
+
+} // namespace host

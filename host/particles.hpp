@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particle data, structure of arrays, split by lifetime. Arrays are padded to a multiple of `lanes`
+// and kept in Morton order, so that lanes of one cluster are neighbours in space.
+#pragma once
+#include "host/lane.hpp"
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace host {
+
+using Array = std::vector<double, Eigen::aligned_allocator<double>>;
+
+/// Where padding lanes stand: outside every support, at finite distance from everything.
+inline constexpr double nowhere = 1e30;
+
+template <class Geometry> struct Particles {
+  static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+
+  int count = 0; ///< particles; arrays hold `padded()` entries
+  int padded() const { return (count + lanes - 1) / lanes * lanes; }
+  int clusters() const { return padded() / lanes; }
+
+  // Persistent: what a restart must hold.
+  std::vector<int> id; ///< order of creation
+  std::array<Array, D> position, velocity, initial_position;
+  Array mass, density;                     ///< kg (per `depth` of plane strain: kg/m), kg/m3
+  std::array<Array, S> stress;             ///< Pa, Cauchy, tension positive
+  std::vector<Array> state;                ///< STATEV, one array for each variable
+  Array internal_energy, inelastic_energy; ///< J/kg
+  std::array<Array, S> stress_diffusion;   ///< Pa/s, added at the next stress update
+  Array wave_speed;                        ///< m/s
+
+  // Per step: written by one stage, read by the next.
+  std::array<Array, D * D> velocity_gradient; ///< 1/s, component a * D + b is d v_a / d x_b
+  std::array<Array, D * D> correction;        ///< inverse of the moment matrix
+  std::array<Array, D> stress_acceleration, viscous_acceleration, wall_acceleration; ///< m/s2
+
+  /// Calls `f(array)` for each persistent array; what is listed here is sorted, stored and restored.
+  template <class F> void each_persistent(F&& f) {
+    for (auto* group : {&position, &velocity, &initial_position})
+      for (auto& a : *group) f(a);
+    for (auto* a : {&mass, &density, &internal_energy, &inelastic_energy, &wave_speed}) f(*a);
+    for (auto* group : {&stress, &stress_diffusion})
+      for (auto& a : *group) f(a);
+    for (auto& a : state) f(a);
+  }
+
+  /// Sizes all arrays for `n` particles and `state_variables`, filled with zeros.
+  void resize(int n, int state_variables) {
+    count = n;
+    id.assign(padded(), -1);
+    state.resize(state_variables);
+    each_persistent([&](Array& a) { a.assign(padded(), 0.0); });
+    for (auto* group : {&velocity_gradient, &correction})
+      for (auto& a : *group) a.assign(padded(), 0.0);
+    for (auto* group : {&stress_acceleration, &viscous_acceleration, &wall_acceleration})
+      for (auto& a : *group) a.assign(padded(), 0.0);
+    for (int i = count; i < padded(); ++i) {
+      for (int a = 0; a < D; ++a) position[a][i] = nowhere;
+      density[i] = mass[i] = wave_speed[i] = 1;
+    }
+  }
+};
+
+} // namespace host

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is to be simulated, in SI units: everything a run needs and nothing it computes.
+#pragma once
+#include "host/vumat_block.hpp"
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace host {
+
+enum class GeometryKind { plane_strain, axisymmetric };
+
+/// A column of radius (plane strain: half width) `radius` that stands on the floor at height 0,
+/// symmetric about the axis at coordinate 0.
+struct Column {
+  double radius = 0; ///< m
+  double height = 0; ///< m
+};
+
+struct Floor {
+  bool no_slip = false;
+  double friction = 0; ///< Coulomb coefficient where slip is allowed
+};
+
+enum class GateMotion { fixed, lift, remove };
+
+/// Rigid, frictionless retaining wall at coordinate `Column::radius`.
+struct Gate {
+  GateMotion motion = GateMotion::lift;
+  double speed = 0; ///< m/s, upwards
+  /// Height of its lower edge, m. A gate that has not moved reaches below the floor.
+  double lower_edge(double time) const {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    if (motion == GateMotion::remove) return far;
+    return motion == GateMotion::fixed ? -far : speed * time;
+  }
+};
+
+/// Numerical choices; their effect is measured, the defaults are the recommended ones.
+struct Numerics {
+  double smoothing_length = 1.5; ///< in spacings
+  double viscosity = 0.5;        ///< artificial viscosity of unresolved velocity differences
+  double stress_diffusion = 5;   ///< in smoothing lengths squared per unit strain
+  double step_factor = 0.4;      ///< step = factor * h / (wave speed + flow speed)
+  double skin = 0.4;             ///< of the neighbour lists, in spacings
+  int wave_speed_interval = 10;  ///< steps between two evaluations of the wave speed
+};
+
+struct Scene {
+  GeometryKind geometry = GeometryKind::axisymmetric;
+  double spacing = 0; ///< m, initial distance of particles
+  double gravity = 0; ///< m/s2
+  Column column;
+  Material material;
+  std::vector<std::string> state_names; ///< one for each state variable
+  std::vector<double> initial_state;    ///< STATEV of every particle at the start
+  int failure_state = -1;  ///< position in STATEV that is negative after a failed update; -1: there is none
+  double bulk_density = 0; ///< kg/m3, initial
+  double earth_pressure_ratio = 0; ///< K0: horizontal over vertical initial stress
+  double friction_angle = 0;       ///< degrees, critical state; 0 where the material has none
+  Floor floor;
+  Gate gate;
+  Numerics numerics;
+  double end_time = 0;        ///< s
+  double rest_fraction = 0;   ///< at rest when kinetic energy / initial potential energy is below it
+  double sample_interval = 0; ///< s
+  double snapshot_interval = 0;
+  double grain_diameter = 0; ///< m: the front is where the deposit is this high
+  std::string output_folder;
+  std::string resolved; ///< the scene file with every key written out
+};
+
+} // namespace host

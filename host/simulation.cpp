@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/simulation.hpp"
+#include "host/geometry.hpp"
+#include "host/lattice.hpp"
+#include <chrono>
+#include <fmt/format.h>
+
+namespace host {
+namespace {
+
+/// Runs `stage` and adds its time to the account.
+template <class Geometry, class F> void timed(Simulation<Geometry>& s, Stage stage, F&& run) {
+  const auto start = std::chrono::steady_clock::now();
+  run();
+  s.stage_seconds[std::size_t(stage)] +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <class Geometry> void show_all_motion(Simulation<Geometry>& s) {
+  show_motion(s.particles, s.records);
+  reflect_motion(s.images, s.mirrors, s.records);
+}
+
+template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
+  const double skin = s.scene.numerics.skin * s.scene.spacing, reach = s.kernel.support + skin;
+  move_gate(s.mirrors, s.scene, s.time);
+  if (s.rebuilds == 0 || largest_displacement(s.particles, s.listed_position) > 0.5 * skin) {
+    sort_particles(s.particles, 0.25 * s.scene.spacing);
+    s.images = find_images(s.particles, s.mirrors, reach);
+    const std::size_t size = s.particles.padded() + s.images.list.size();
+    s.records.motion.resize(size);
+    s.records.stress.resize(size);
+    show_all_motion(s);
+    find_neighbours(s.particles, s.images, s.records, reach, s.lists);
+    s.listed_position = s.particles.position;
+    ++s.rebuilds;
+  } else
+    show_all_motion(s);
+}
+
+/// Step from the current wave speed, refreshed every few steps.
+template <class Geometry> void choose_step(Simulation<Geometry>& s) {
+  if (s.steps % s.scene.numerics.wave_speed_interval != 0) return;
+  update_wave_speed(s.particles, s.scene.material, s.blocks);
+  double fastest = 0;
+  for (int i = 0; i < s.particles.count; ++i) {
+    double square = 0;
+    for (const auto& v : s.particles.velocity) square += v[i] * v[i];
+    fastest = std::max(fastest, s.particles.wave_speed[i] + std::sqrt(square));
+  }
+  s.dt = s.scene.numerics.step_factor * s.kernel.h / fastest;
+  if (!(s.dt > 0) || !std::isfinite(s.dt))
+    throw std::runtime_error(
+        fmt::format("no step size at time {:.9g} s: the fastest wave is {} m/s", s.time, fastest));
+}
+
+template <class Geometry> void show_all_stress(Simulation<Geometry>& s) {
+  show_stress(s.particles, s.scene.bulk_density * s.scene.gravity, s.scene.earth_pressure_ratio, s.records);
+  reflect_stress(s.images, s.mirrors, s.records);
+}
+
+} // namespace
+
+template <class Geometry> Simulation<Geometry> start_simulation(const Scene& scene) {
+  Simulation<Geometry> s{
+      .scene = scene, .kernel = Kernel<Geometry::dimension>(scene.numerics.smoothing_length * scene.spacing)};
+  s.particles = make_column<Geometry>(scene);
+  s.mirrors = scene_mirrors(scene);
+  s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
+  s.initial_potential_energy = potential_energy(s.particles, scene.gravity);
+  return s;
+}
+
+template <class Geometry> void step(Simulation<Geometry>& s) {
+  timed(s, Stage::neighbours, [&] { update_neighbours(s); });
+  timed(s, Stage::wave_speed, [&] { choose_step(s); });
+  timed(s, Stage::gradient, [&] { update_gradient(s.particles, s.kernel, s.lists, s.records); });
+  const Increment increment{s.time + s.dt, s.time + s.dt, s.dt};
+  timed(s, Stage::stress, [&] {
+    update_stress(s.particles, s.scene.material, increment, s.blocks);
+    show_all_stress(s);
+  });
+  timed(s, Stage::momentum,
+        [&] { update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene.numerics); });
+  timed(s, Stage::integrate,
+        [&] { s.work.add(integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt)); });
+  s.time += s.dt;
+  ++s.steps;
+}
+
+template Simulation<PlaneStrain> start_simulation(const Scene&);
+template Simulation<Axisymmetric> start_simulation(const Scene&);
+template void step(Simulation<PlaneStrain>&);
+template void step(Simulation<Axisymmetric>&);
+
+} // namespace host

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run: its data, and the step as a list of stages.
+#pragma once
+#include "host/gradient.hpp"
+#include "host/integrate.hpp"
+#include "host/momentum.hpp"
+#include "host/stress.hpp"
+
+namespace host {
+
+enum class Stage { neighbours, gradient, stress, wave_speed, momentum, integrate };
+inline constexpr std::array stage_names{"neighbours", "gradient", "stress (VUMAT)",
+                                        "wave speed", "momentum", "integrate"};
+
+template <class Geometry> struct Simulation {
+  Scene scene;
+  Kernel<Geometry::dimension> kernel;
+  Particles<Geometry> particles{};
+  std::vector<Mirror> mirrors{};
+  StressBlocks blocks{};
+
+  // Valid until particles have moved half the skin.
+  Images images{};
+  NeighbourLists lists{};
+  Records<Geometry> records{};
+  std::array<Array, Geometry::dimension> listed_position{};
+
+  double time = 0, dt = 0; ///< s
+  long steps = 0, rebuilds = 0;
+  Work work{};
+  double initial_potential_energy = 0;
+  std::array<double, stage_names.size()> stage_seconds{};
+};
+
+/// The scene at time 0. Throws std::runtime_error for a scene without particles.
+template <class Geometry> Simulation<Geometry> start_simulation(const Scene& scene);
+
+/// One step. Throws std::runtime_error if the material fails.
+template <class Geometry> void step(Simulation<Geometry>& simulation);
+
+} // namespace host

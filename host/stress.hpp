@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stress of all particles by the material: strain increment and spin from the velocity gradient, old
+// stress turned with the material, the VUMAT called in blocks, the answer checked.
+#pragma once
+#include "host/particles.hpp"
+#include "host/records.hpp"
+#include "host/scene.hpp"
+
+namespace host {
+
+/// One block for each thread and one for the particles left over, allocated once.
+struct StressBlocks {
+  static constexpr int points = 64; ///< per call, fixed: results may not depend on the threads
+  double spacing = 0;               ///< m, the characteristic length of a particle
+  std::vector<VumatBlock> full, tail;
+};
+
+template <class Geometry>
+StressBlocks make_stress_blocks(const Material& material, const Particles<Geometry>& particles,
+                                double spacing);
+
+/// Advances stress, state, energies and density over `increment`. Old stress is turned by the spin of
+/// the step about the out-of-plane axis (exactly, so a rigid rotation leaves no error) and the stress
+/// diffusion of the last step is added; the material sees strain in the turned frame, which serves
+/// isotropic materials. Throws std::runtime_error with particle, time, stress and strain increment if
+/// the material returns a number that is not finite.
+template <class Geometry>
+void update_stress(Particles<Geometry>& particles, const Material& material, const Increment& increment,
+                   StressBlocks& blocks);
+
+/// Elastic wave speed of each particle, sqrt(constrained modulus / density), m/s: the material's answer
+/// to a small uniaxial compression in a data check with current stress and state, which it does not keep.
+template <class Geometry>
+void update_wave_speed(Particles<Geometry>& particles, const Material& material, StressBlocks& blocks);
+
+/// Fills `records.stress` of the particles (not of the images). The reduced stress is the stress less
+/// weight_gradient * height vertically and `horizontal_ratio` of that horizontally.
+template <class Geometry>
+void show_stress(const Particles<Geometry>& particles, double weight_gradient, double horizontal_ratio,
+                 Records<Geometry>& records);
+
+} // namespace host

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs, builds and runs every test. With CI=true warnings are errors.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+werror=OFF
+if [ "${CI:-false}" = true ]; then werror=ON; fi
+
+bash drivers/install.sh
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DSIMSAND_WERROR=$werror >/dev/null
+cmake --build build
+ctest --test-dir build --output-on-failure
