@@ -93,7 +93,7 @@ template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation
   result.sample(row);
 
   const bool cleared = s.scene.gate.lower_edge(s.time) > s.scene.column.height;
-  const bool still = !series.empty() && std::abs(now.height - series.back().height) < 1e-3 * s.scene.spacing;
+  const bool still = !series.empty() && std::abs(now.height - series.back().height) < 5e-3 * s.scene.spacing;
   const bool slow = now.kinetic < s.scene.rest_fraction * s.initial_potential_energy;
   if (!rest_time && cleared && still && slow) rest_time = s.time;
   series.push_back(now);

@@ -50,7 +50,8 @@ void read_numerics(const TomlTable& root, host::Numerics& numerics) {
   const auto table = root.table_or_empty("numerics");
   numerics.smoothing_length = table.number("smoothing_length", {1.1, 3}, numerics.smoothing_length);
   numerics.viscosity = table.number("viscosity", {0, 10}, numerics.viscosity);
-  numerics.stress_diffusion = table.number("stress_diffusion", {0, 1}, numerics.stress_diffusion);
+  numerics.flow_viscosity = table.number("flow_viscosity", {0, 1000}, numerics.flow_viscosity);
+  numerics.stress_diffusion = table.number("stress_diffusion", {0, 100}, numerics.stress_diffusion);
   numerics.step_factor = table.number("step_factor", {1e-4, 1}, numerics.step_factor);
   numerics.skin = table.number("skin", {0.01, 3}, numerics.skin);
 }

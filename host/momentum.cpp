@@ -18,7 +18,7 @@ PairSide<Geometry, Lane> gather_cluster(const StressRecord<Geometry>* records, i
     }
     side.weight[l] = r.weight;
     side.density[l] = r.density;
-    side.wave_speed[l] = r.wave_speed;
+    side.damping_speed[l] = r.damping_speed;
     for (int e = 0; e < D * D; ++e) {
       side.flux[e][l] = r.flux[e];
       side.gradient[e][l] = r.gradient[e];
@@ -45,14 +45,14 @@ void update_acceleration(Particles<Geometry>& p, const Kernel<Geometry::dimensio
       const auto& j = records.stress[neighbour[k]];
       const auto pair = make_pair(kernel, i, j);
       add_stress_force(pair, i, j, stress);
-      add_viscous_force(kernel, numerics.viscosity, pair, i, j, viscous);
+      add_viscous_force(kernel, pair, i, j, viscous);
       add_stress_diffusion(pair, i, j, diffusion);
     }
     for (int k = lists.interior[c]; k < lists.total[c]; ++k) {
       const auto& j = records.stress[neighbour[k]];
       const auto pair = make_pair(kernel, i, j);
       add_stress_force(pair, i, j, wall);
-      add_viscous_force(kernel, numerics.viscosity, pair, i, j, wall);
+      add_viscous_force(kernel, pair, i, j, wall);
     }
     const Lane scale = 1.0 / (i.density * i.weight);
     for (int a = 0; a < D; ++a) {
@@ -63,7 +63,7 @@ void update_acceleration(Particles<Geometry>& p, const Kernel<Geometry::dimensio
       store(&p.wall_acceleration[a][first], wall[a] * scale);
     }
     const Lane twice_diffusivity =
-        2 * stress_diffusivity(numerics.stress_diffusion, kernel.h, i.wave_speed, i.gradient);
+        2 * stress_diffusivity(numerics.stress_diffusion, kernel.h, load(&p.wave_speed[first]), i.gradient);
     for (int s = 0; s < S; ++s) store(&p.stress_diffusion[s][first], diffusion[s] * twice_diffusivity);
   }
 }

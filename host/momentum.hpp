@@ -17,7 +17,8 @@ namespace host {
 /// A particle (or eight) as the pair functions see it; the same quantities as a StressRecord.
 template <class Geometry, class Real> struct PairSide {
   static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
-  Real position[D], velocity[D], weight, density, wave_speed, flux[D * D], gradient[D * D], reduced_stress[S];
+  Real position[D], velocity[D], weight, density, damping_speed, flux[D * D], gradient[D * D],
+      reduced_stress[S];
 };
 
 /// Distance vector and V_j W'(r)/r of a pair.
@@ -63,14 +64,16 @@ inline Real unresolved_approach(const Pair<D, Real>& pair, const PairSide<Geomet
          larger(smaller(rest, Real{}), smaller(whole, Real{}));
 }
 
-/// Adds the viscous pressure alpha c h rho (v . x)/(r2 + 0.01 h2), v . x without its resolved part.
+/// Adds the viscous pressure s h rho (v . x)/(r2 + 0.01 h2), s the mean damping speed and v . x without its
+/// resolved part.
 template <class Geometry, class Real, int D>
-inline void add_viscous_force(const Kernel<D>& kernel, double alpha, const Pair<D, Real>& pair,
+inline void add_viscous_force(const Kernel<D>& kernel, const Pair<D, Real>& pair,
                               const PairSide<Geometry, Real>& i, const StressRecord<Geometry>& j,
                               Real (&force)[D]) {
-  const Real mean = (i.wave_speed + j.wave_speed) * (i.density + j.density) * (i.weight + std::abs(j.weight));
-  const Real pressure = (0.125 * alpha * kernel.h) * mean * unresolved_approach(pair, i, j) /
-                        (pair.r2 + 0.01 * kernel.h * kernel.h);
+  const Real mean =
+      (i.damping_speed + j.damping_speed) * (i.density + j.density) * (i.weight + std::abs(j.weight));
+  const Real pressure =
+      (0.125 * kernel.h) * mean * unresolved_approach(pair, i, j) / (pair.r2 + 0.01 * kernel.h * kernel.h);
   for (int a = 0; a < D; ++a) force[a] += pressure * pair.w * pair.x[a];
 }
 

@@ -55,7 +55,7 @@ template <class Geometry> void choose_step(Simulation<Geometry>& s) {
 }
 
 template <class Geometry> void show_all_stress(Simulation<Geometry>& s) {
-  show_stress(s.particles, s.scene.bulk_density * s.scene.gravity, s.scene.earth_pressure_ratio, s.records);
+  show_stress(s.particles, s.scene, s.kernel.h, s.records);
   reflect_stress(s.images, s.mirrors, s.records);
 }
 

@@ -145,9 +145,15 @@ void update_wave_speed(Particles<Geometry>& p, const Material& material, StressB
   });
 }
 
+double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm) {
+  return std::min(0.5 * wave_speed,
+                  numerics.viscosity * wave_speed + numerics.flow_viscosity * h * gradient_norm);
+}
+
 template <class Geometry>
-void show_stress(const Particles<Geometry>& p, double weight_gradient, double horizontal_ratio,
+void show_stress(const Particles<Geometry>& p, const Scene& scene, double smoothing_length,
                  Records<Geometry>& records) {
+  const double weight_gradient = scene.bulk_density * scene.gravity;
   constexpr int D = Geometry::dimension;
 #pragma omp parallel for schedule(static)
   for (int i = 0; i < p.count; ++i) {
@@ -159,17 +165,22 @@ void show_stress(const Particles<Geometry>& p, double weight_gradient, double ho
     record.volume = records.motion[i].volume;
     record.weight = Geometry::weight(p.position[0][i]);
     record.density = p.density[i];
-    record.wave_speed = p.wave_speed[i];
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) {
         double sum = 0;
         for (int e = 0; e < D; ++e) sum += p.stress[component<D>(a, e)][i] * p.correction[e * D + b][i];
         record.flux[a * D + b] = record.weight * sum;
       }
-    for (int e = 0; e < D * D; ++e) record.gradient[e] = p.velocity_gradient[e][i];
+    double square = 0;
+    for (int e = 0; e < D * D; ++e) {
+      record.gradient[e] = p.velocity_gradient[e][i];
+      square += record.gradient[e] * record.gradient[e];
+    }
+    record.damping_speed =
+        damping_speed(scene.numerics, smoothing_length, p.wave_speed[i], std::sqrt(square));
     const double geostatic = weight_gradient * p.position[D - 1][i];
     for (int c = 0; c < Geometry::stress_components; ++c) {
-      const double part = c >= 3 ? 0 : (c == D - 1 ? 1 : horizontal_ratio);
+      const double part = c >= 3 ? 0 : (c == D - 1 ? 1 : scene.earth_pressure_ratio);
       record.reduced_stress[c] = p.stress[c][i] - part * geostatic;
     }
   }
@@ -181,7 +192,7 @@ template void update_stress(Particles<PlaneStrain>&, const Material&, const Incr
 template void update_stress(Particles<Axisymmetric>&, const Material&, const Increment&, StressBlocks&);
 template void update_wave_speed(Particles<PlaneStrain>&, const Material&, StressBlocks&);
 template void update_wave_speed(Particles<Axisymmetric>&, const Material&, StressBlocks&);
-template void show_stress(const Particles<PlaneStrain>&, double, double, Records<PlaneStrain>&);
-template void show_stress(const Particles<Axisymmetric>&, double, double, Records<Axisymmetric>&);
+template void show_stress(const Particles<PlaneStrain>&, const Scene&, double, Records<PlaneStrain>&);
+template void show_stress(const Particles<Axisymmetric>&, const Scene&, double, Records<Axisymmetric>&);
 
 } // namespace host

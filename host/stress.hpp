@@ -33,10 +33,15 @@ void update_stress(Particles<Geometry>& particles, const Material& material, con
 template <class Geometry>
 void update_wave_speed(Particles<Geometry>& particles, const Material& material, StressBlocks& blocks);
 
-/// Fills `records.stress` of the particles (not of the images). The reduced stress is the stress less
-/// weight_gradient * height vertically and `horizontal_ratio` of that horizontally.
+/// Speed of the artificial viscosity, m/s: alpha c + beta h |grad v|, at most c / 2. The second term damps
+/// noise as it arises, by strain; the first, which alone acts in a deposit at rest, is small, for with it
+/// the zero-energy modes of the pair sums would hold slopes up that creep down later.
+double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm);
+
+/// Fills `records.stress` of the particles (not of the images). The reduced stress is the stress less its
+/// geostatic gradient.
 template <class Geometry>
-void show_stress(const Particles<Geometry>& particles, double weight_gradient, double horizontal_ratio,
+void show_stress(const Particles<Geometry>& particles, const Scene& scene, double smoothing_length,
                  Records<Geometry>& records);
 
 } // namespace host

@@ -75,7 +75,7 @@ template <class Real> Real bulk_modulus(const Material<Real>& m, Real e, const P
 
 /// Void ratio after a volumetric strain, compression positive: 1 + e shrinks by its exponential (10).
 template <class Real> Real void_ratio_after(Real e, Real volumetric_strain) {
-  // (exp(x) - 1) = x / (1 - x/2 + x^2/12 - ...), relative error x^8 / 1.2e6; reversible to rounding.
+  // (exp(x) - 1) = x / (1 - x/2 + x^2/12 - ...), relative error below x^8 / 1e6 for |x| < 0.3; reversible.
   const Real x = -volumetric_strain, t = x * x;
   const Real denominator = 1 - x / 2 + t / 12 * (1 - t / 60 * (1 - t / 42));
   return std::max(e + (1 + e) * x / denominator, smallest_void_ratio<Real>);

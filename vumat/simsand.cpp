@@ -62,8 +62,9 @@ Substep<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>&
   Substep<Real, N> out;
   out.point.void_ratio = in.e_end;
   out.error = mean_stiffness_error(m, in.start, trial);
-  const auto M_trial = peak_slope(m, denseness(m, in.e_end, trial), in.sin3theta);
-  if (y_trial > 0 && yield_function(q_trial, trial.mean_stress, M_trial.value, mobilised(m, in.eps_d)) <= 0) {
+  const Real M_trial = peak_slope(m, denseness(m, in.e_end, trial), in.sin3theta).value;
+  const Real f_trial = yield_function(q_trial, trial.mean_stress, M_trial, mobilised(m, in.eps_d));
+  if (y_trial > 0 && f_trial <= rounding<Real> * trial.mean_stress) {
     out.point.stress = add_mean(s_trial, trial.mean_stress);
     out.point.plastic_strain = in.eps_d;
     return out;
