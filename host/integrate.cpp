@@ -67,8 +67,9 @@ void Work::add(const Work& other) {
 
 template <class Geometry>
 Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors, double reach,
-               double dt) {
+               double dt_before, double dt) {
   constexpr int D = Geometry::dimension, up = D - 1;
+  const double kick = 0.5 * (dt_before + dt);
   std::vector<Work> of_cluster(p.clusters()); // summed in order below: the same for any number of threads
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < p.clusters(); ++c)
@@ -78,19 +79,19 @@ Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mir
       for (int a = 0; a < D; ++a) {
         from[a] = p.position[a][i];
         before[a] = p.velocity[a][i];
-        v[a] = before[a] + dt * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
-                                 p.wall_acceleration[a][i] - (a == up ? scene.gravity : 0));
+        v[a] = before[a] + kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
+                                   p.wall_acceleration[a][i] - (a == up ? scene.gravity : 0));
       }
       if (!scene.floor.no_slip && from[up] < reach)
         for (int a = 0; a < up; ++a) {
-          by_friction[a] = friction_change(scene.floor, dt * p.wall_acceleration[up][i], v[a]);
+          by_friction[a] = friction_change(scene.floor, kick * p.wall_acceleration[up][i], v[a]);
           v[a] += by_friction[a];
         }
       for (int a = 0; a < D; ++a) {
         const double impulse = p.mass[i] * 0.5 * (before[a] + v[a]);
-        work.stress += impulse * dt * p.stress_acceleration[a][i];
-        work.viscosity += impulse * dt * p.viscous_acceleration[a][i];
-        work.wall += impulse * dt * p.wall_acceleration[a][i];
+        work.stress += impulse * kick * p.stress_acceleration[a][i];
+        work.viscosity += impulse * kick * p.viscous_acceleration[a][i];
+        work.wall += impulse * kick * p.wall_acceleration[a][i];
         work.friction += impulse * by_friction[a];
         x[a] = from[a] + dt * v[a];
       }
@@ -121,8 +122,10 @@ template <class Geometry> double potential_energy(const Particles<Geometry>& p, 
   return sum;
 }
 
-template Work integrate(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double, double);
-template Work integrate(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&, double, double);
+template Work integrate(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double, double,
+                        double);
+template Work integrate(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&, double, double,
+                        double);
 template double kinetic_energy(const Particles<PlaneStrain>&);
 template double kinetic_energy(const Particles<Axisymmetric>&);
 template double potential_energy(const Particles<PlaneStrain>&, double);

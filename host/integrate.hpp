@@ -24,13 +24,14 @@ inline constexpr double contact_gap = 0.4;
 /// The same for the axis, which only keeps 1/r finite.
 inline constexpr double axis_gap = 0.05;
 
-/// v += a dt, x += v dt. Coulomb friction opposes the tangential velocity of a particle on the floor by
+/// v += a (dt_before + dt)/2, x += v dt: velocities live at half steps (dt_before is 0 in the first one), so
+/// free fall is exact for any sequence of steps. Coulomb friction opposes the tangential velocity of a particle on the floor by
 /// at most `floor.friction` times what the floor pushes it up with. A particle that would come nearer to
 /// a wall than the contact gap stays there, loses its speed towards it, and on the floor as much
 /// tangential speed as friction takes for that impulse. Returns the work of the step.
 template <class Geometry>
 Work integrate(Particles<Geometry>& particles, const Scene& scene, const std::vector<Mirror>& mirrors,
-               double reach, double dt);
+               double reach, double dt_before, double dt);
 
 /// Kinetic energy and potential energy above the floor, J (plane strain: J/m).
 template <class Geometry> double kinetic_energy(const Particles<Geometry>& particles);

@@ -83,8 +83,9 @@ template <class Geometry> void step(Simulation<Geometry>& s) {
   timed(s, Stage::momentum,
         [&] { update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene.numerics); });
   timed(s, Stage::integrate,
-        [&] { s.work.add(integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt)); });
+        [&] { s.work.add(integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt)); });
   s.time += s.dt;
+  s.dt_before = s.dt;
   ++s.steps;
 }
 

@@ -12,7 +12,7 @@ extern "C" vumat::Subroutine<double> vumat_;
 
 namespace vumat_test {
 
-using Tensor = simsand::SymmetricTensor<double, 6>;
+using Tensor6 = simsand::SymmetricTensor<double, 6>;
 using Point6 = simsand::Point<double, 6>;
 
 inline constexpr double p_at = 101325; // Pa
@@ -39,22 +39,22 @@ inline simsand::Material<double> material(const Shape& shape) {
   return simsand::Material<double>(parameters_of(shape, shape.dense));
 }
 
-inline Tensor isotropic(double pressure) {
-  return simsand::add_mean(Tensor{}, pressure);
+inline Tensor6 isotropic(double pressure) {
+  return simsand::add_mean(Tensor6{}, pressure);
 }
 
-inline double mean(const Tensor& stress) {
+inline double mean(const Tensor6& stress) {
   return simsand::trace(stress) / 3;
 }
 
-inline double q_of(const Tensor& stress) {
+inline double q_of(const Tensor6& stress) {
   return simsand::deviatoric_stress(simsand::deviator(stress));
 }
 
 /// A deviator of random direction with q = 1.
-template <class Generator> Tensor random_deviator(Generator& random) {
+template <class Generator> Tensor6 random_deviator(Generator& random) {
   std::normal_distribution<double> normal;
-  Tensor s;
+  Tensor6 s;
   for (int c = 0; c < 6; ++c) s[c] = normal(random);
   s = simsand::deviator(s);
   return simsand::scale(1 / simsand::deviatoric_stress(s), s);
