@@ -39,7 +39,6 @@ void update_gradient(Particles<Geometry>& p, const Kernel<Geometry::dimension>& 
         Lane corrected{};
         for (int e = 0; e < D; ++e) corrected += sums.gradient[a * D + e] * inverse[e * D + b];
         store(&p.velocity_gradient[a * D + b][first], corrected);
-        store(&p.correction[a * D + b][first], inverse[a * D + b]);
       }
   }
 }

@@ -52,7 +52,7 @@ template <class Real> inline void invert_moment(const Real (&m)[3], Real (&inver
 /// Fills `records.motion` of the particles (not of the images).
 template <class Geometry> void show_motion(const Particles<Geometry>& particles, Records<Geometry>& records);
 
-/// Velocity gradient and correction matrix of all particles, from `records.motion`.
+/// Velocity gradient of all particles, from `records.motion`.
 template <class Geometry>
 void update_gradient(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
                      const NeighbourLists& lists, const Records<Geometry>& records);

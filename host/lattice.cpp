@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/lattice.hpp"
 #include "host/geometry.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -8,9 +9,14 @@
 namespace host {
 
 template <class Geometry> Particles<Geometry> make_column(const Scene& scene) {
+  constexpr double most = 1e8; // particles
+  if (scene.column.radius / scene.spacing * (scene.column.height / scene.spacing) > most)
+    throw std::runtime_error(
+        fmt::format("more than {:g} particles: a column of {} m x {} m at a spacing of {} m", most,
+                    scene.column.radius, scene.column.height, scene.spacing));
   const int columns = int(std::lround(scene.column.radius / scene.spacing));
   const int rows = int(std::lround(scene.column.height / scene.spacing));
-  if (columns < 1 || rows < 1)
+  if (std::min(scene.column.radius, scene.column.height) < (1 - 1e-9) * scene.spacing)
     throw std::runtime_error(
         fmt::format("scene without particles: a column of {} m x {} m holds none at a spacing of {} m",
                     scene.column.radius, scene.column.height, scene.spacing));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/mirrors.hpp"
 #include "host/geometry.hpp"
+#include <cmath>
 
 namespace host {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 /// has no volume and takes part in nothing.
 template <int D> bool acts_on(const Mirror& m, const double (&position)[D]) {
   const double depth = m.positive_side ? position[m.axis] - m.position : m.position - position[m.axis];
-  return depth >= 0 && (m.axis == D - 1 || position[D - 1] >= m.lower_edge);
+  return depth >= 0 && (m.axis == D - 1 || std::abs(position[D - 1]) >= m.lower_edge);
 }
 
 template <int D> void reflect_position(const Mirror& m, double (&position)[D]) {
@@ -56,7 +57,9 @@ Images find_images(const Particles<Geometry>& p, const std::vector<Mirror>& mirr
   const auto consider = [&](int source, std::array<double, D> x, int m) {
     const Mirror& mirror = mirrors[m];
     const double depth = (mirror.positive_side ? 1 : -1) * (x[mirror.axis] - mirror.position);
-    if (depth < -reach / 2 || depth > reach || (mirror.axis != D - 1 && x[D - 1] < mirror.lower_edge)) return;
+    if (depth < -reach / 2 || depth > reach ||
+        (mirror.axis != D - 1 && std::abs(x[D - 1]) < mirror.lower_edge))
+      return;
     x[mirror.axis] = 2 * mirror.position - x[mirror.axis];
     images.list.push_back({source, m});
     position.push_back(x);
@@ -111,14 +114,16 @@ void reflect_stress(const Images& images, const std::vector<Mirror>& mirrors, Re
       for (int b = 0; b < D; ++b) {
         // Reflection turns the sign of shear on the plane; on a no-slip wall shear continues.
         const bool turns = !mirror.no_slip && (a == mirror.axis) != (b == mirror.axis);
-        record.flux[a * D + b] *= turns ? -ratio : ratio;
         if (turns) record.gradient[a * D + b] *= -1;
-        if (turns && a < b) record.reduced_stress[component<D>(a, b)] *= -1;
+        if (a > b) continue;
+        const int c = component<D>(a, b);
+        record.flux[c] *= turns ? -ratio : ratio;
+        if (turns) record.reduced_stress[c] *= -1;
       }
     // The image lies deeper by twice the particle's height: carry the weight on, or the gradient of
     // the vertical stress would vanish at the floor.
     for (int a = 0; a < D; ++a)
-      record.flux[a * D + a] -=
+      record.flux[a] -=
           weight * mirror.weight_gradient * 2 * depth * (a == D - 1 ? 1 : mirror.horizontal_ratio);
   }
 }

@@ -20,10 +20,12 @@ PairSide<Geometry, Lane> gather_cluster(const StressRecord<Geometry>* records, i
     side.density[l] = r.density;
     side.damping_speed[l] = r.damping_speed;
     for (int e = 0; e < D * D; ++e) {
-      side.flux[e][l] = r.flux[e];
       side.gradient[e][l] = r.gradient[e];
     }
-    for (int s = 0; s < S; ++s) side.reduced_stress[s][l] = r.reduced_stress[s];
+    for (int s = 0; s < S; ++s) {
+      side.flux[s][l] = r.flux[s];
+      side.reduced_stress[s][l] = r.reduced_stress[s];
+    }
   }
   return side;
 }

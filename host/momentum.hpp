@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accelerations from stress, as the adjoint of the corrected velocity gradient: the work of the pair
-// forces is then the stress power of the particles. With w the weight of the geometry (r or 1),
-//   a_i = 1/(rho_i w_i) sum_j V_j (w_i sigma_i L_i + w_j sigma_j L_j + w_ij pi_ij 1) grad W_ij - hoop terms,
+// Accelerations from stress, symmetric in the pair, so that momentum is exchanged and none is made. With w the
+// weight of the geometry (r or 1),
+//   a_i = 1/(rho_i w_i) sum_j V_j (w_i sigma_i + w_j sigma_j + w_ij pi_ij 1) grad W_ij - hoop terms,
 // with pi_ij the artificial viscosity and, in axisymmetry, sigma_33 / (rho r) taken off the radial
 // acceleration. The viscosity (form of Monaghan 1992, Annu. Rev. Astron. Astrophys. 30:543) acts on what is
 // left of a velocity difference once the velocity gradients of both sides are taken off (Frontiere, Raskin
 // and Owen 2017, J. Comput. Phys. 332:160): it damps noise between particles and leaves a resolved flow,
 // compression and shear alike, undissipated.
 #pragma once
+#include "host/geometry.hpp"
 #include "host/kernel.hpp"
 #include "host/neighbours.hpp"
 #include "host/scene.hpp"
@@ -17,8 +18,7 @@ namespace host {
 /// A particle (or eight) as the pair functions see it; the same quantities as a StressRecord.
 template <class Geometry, class Real> struct PairSide {
   static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
-  Real position[D], velocity[D], weight, density, damping_speed, flux[D * D], gradient[D * D],
-      reduced_stress[S];
+  Real position[D], velocity[D], weight, density, damping_speed, flux[S], gradient[D * D], reduced_stress[S];
 };
 
 /// Distance vector and V_j W'(r)/r of a pair.
@@ -37,13 +37,16 @@ inline Pair<Geometry::dimension, Real> make_pair(const Kernel<Geometry::dimensio
   return pair;
 }
 
-/// Adds (w_i sigma_i L_i + w_j sigma_j L_j) V_j grad W.
+/// Adds (w_i sigma_i + w_j sigma_j) V_j grad W.
 template <class Geometry, class Real, int D>
 inline void add_stress_force(const Pair<D, Real>& pair, const PairSide<Geometry, Real>& i,
                              const StressRecord<Geometry>& j, Real (&force)[D]) {
   for (int a = 0; a < D; ++a) {
-    Real sum = (i.flux[a * D] + j.flux[a * D]) * pair.x[0];
-    for (int b = 1; b < D; ++b) sum += (i.flux[a * D + b] + j.flux[a * D + b]) * pair.x[b];
+    Real sum{};
+    for (int b = 0; b < D; ++b) {
+      const int c = component<D>(a, b);
+      sum += (i.flux[c] + j.flux[c]) * pair.x[b];
+    }
     force[a] += sum * pair.w;
   }
 }

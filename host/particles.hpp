@@ -33,7 +33,6 @@ template <class Geometry> struct Particles {
 
   // Per step: written by one stage, read by the next.
   std::array<Array, D * D> velocity_gradient; ///< 1/s, component a * D + b is d v_a / d x_b
-  std::array<Array, D * D> correction;        ///< inverse of the moment matrix
   std::array<Array, D> stress_acceleration, viscous_acceleration, wall_acceleration; ///< m/s2
 
   /// Calls `f(array)` for each persistent array; what is listed here is sorted, stored and restored.
@@ -52,8 +51,7 @@ template <class Geometry> struct Particles {
     id.assign(padded(), -1);
     state.resize(state_variables);
     each_persistent([&](Array& a) { a.assign(padded(), 0.0); });
-    for (auto* group : {&velocity_gradient, &correction})
-      for (auto& a : *group) a.assign(padded(), 0.0);
+    for (auto& a : velocity_gradient) a.assign(padded(), 0.0);
     for (auto* group : {&stress_acceleration, &viscous_acceleration, &wall_acceleration})
       for (auto& a : *group) a.assign(padded(), 0.0);
     for (int i = count; i < padded(); ++i) {

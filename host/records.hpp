@@ -23,7 +23,7 @@ template <class Geometry> struct StressRecord {
   double weight;            ///< r in axisymmetry, signed: negative across the axis
   double density;           ///< kg/m3
   double damping_speed;     ///< m/s, of the artificial viscosity
-  double flux[D * D];       ///< weight * sigma * correction, Pa (or Pa m)
+  double flux[S];           ///< weight * stress, Pa (or Pa m)
   double gradient[D * D];   ///< of velocity, 1/s
   double reduced_stress[S]; ///< stress less the geostatic part, Pa; what diffusion acts on
 };

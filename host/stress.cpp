@@ -59,6 +59,15 @@ int first_failure(const VumatBlock& b) {
   return -1;
 }
 
+/// Keeps the lowest number of a particle whose answer is not finite; false if the block has none.
+bool note_failure(int first, const VumatBlock& b, std::atomic<int>& failed) {
+  const int k = first_failure(b);
+  if (k < 0) return false;
+  int lowest = failed;
+  while (first + k < lowest && !failed.compare_exchange_weak(lowest, first + k)) {}
+  return true;
+}
+
 /// Calls `f(first, block)` for all particles, each thread with a block of its own.
 template <class F> void for_each_block(int count, StressBlocks& blocks, F&& f) {
   const int full = count / StressBlocks::points;
@@ -113,11 +122,7 @@ void update_stress(Particles<Geometry>& p, const Material& material, const Incre
       b.density[k] = p.density[i];
     }
     call_vumat(material, increment, b);
-    if (const int k = first_failure(b); k >= 0) {
-      int lowest = failed;
-      while (first + k < lowest && !failed.compare_exchange_weak(lowest, first + k)) {}
-      return;
-    }
+    if (note_failure(first, b, failed)) return;
     for (int c = 0; c < 4; ++c) std::copy_n(&b.stress_new[c * n], n, &p.stress[c][first]);
     for (int s = 0; s < b.state_variables; ++s) std::copy_n(&b.state_new[s * n], n, &p.state[s][first]);
     std::copy_n(b.internal_energy_new.begin(), n, &p.internal_energy[first]);
@@ -128,6 +133,7 @@ void update_stress(Particles<Geometry>& p, const Material& material, const Incre
 
 template <class Geometry>
 void update_wave_speed(Particles<Geometry>& p, const Material& material, StressBlocks& blocks) {
+  std::atomic<int> failed = p.count;
   constexpr double probe = -1e-6; // strain; compression, so that the probe itself never separates
   for_each_block(p.count, blocks, [&](int first, VumatBlock& b) {
     const int n = b.points;
@@ -138,11 +144,13 @@ void update_wave_speed(Particles<Geometry>& p, const Material& material, StressB
         b.stress_old[c * n + k] = p.stress[c][first + k];
       }
     call_vumat(material, {0, 0, 1}, b);
+    if (note_failure(first, b, failed)) return;
     for (int k = 0; k < n; ++k) {
       const double modulus = (b.stress_new[k] - b.stress_old[k]) / probe;
       p.wave_speed[first + k] = std::sqrt(std::max(modulus, 0.0) / p.density[first + k]);
     }
   });
+  if (failed < p.count) report_failure(p, material, Increment{0, 0, 1}, failed);
 }
 
 double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm) {
@@ -165,12 +173,6 @@ void show_stress(const Particles<Geometry>& p, const Scene& scene, double smooth
     record.volume = records.motion[i].volume;
     record.weight = Geometry::weight(p.position[0][i]);
     record.density = p.density[i];
-    for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b) {
-        double sum = 0;
-        for (int e = 0; e < D; ++e) sum += p.stress[component<D>(a, e)][i] * p.correction[e * D + b][i];
-        record.flux[a * D + b] = record.weight * sum;
-      }
     double square = 0;
     for (int e = 0; e < D * D; ++e) {
       record.gradient[e] = p.velocity_gradient[e][i];
@@ -181,6 +183,7 @@ void show_stress(const Particles<Geometry>& p, const Scene& scene, double smooth
     const double geostatic = weight_gradient * p.position[D - 1][i];
     for (int c = 0; c < Geometry::stress_components; ++c) {
       const double part = c >= 3 ? 0 : (c == D - 1 ? 1 : scene.earth_pressure_ratio);
+      record.flux[c] = record.weight * p.stress[c][i];
       record.reduced_stress[c] = p.stress[c][i] - part * geostatic;
     }
   }

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion of single particles: free fall, friction, walls that hold, and the account of their work.
+#include "host/geometry.hpp"
+#include "host/integrate.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace {
+
+using namespace host;
+
+constexpr double spacing = 0.002, reach = 3 * spacing, g = 9.81, dt = 1e-4;
+
+Scene scene_with(double friction, GateMotion gate = GateMotion::fixed) {
+  Scene scene;
+  scene.spacing = spacing;
+  scene.gravity = g;
+  scene.column = {0.05, 0.05};
+  scene.floor.friction = friction;
+  scene.gate = {gate, 1.6};
+  return scene;
+}
+
+Particles<PlaneStrain> one_particle(double x, double y, double vx, double vy) {
+  Particles<PlaneStrain> p;
+  p.resize(1, 0);
+  p.position[0][0] = x;
+  p.position[1][0] = y;
+  p.velocity[0][0] = vx;
+  p.velocity[1][0] = vy;
+  p.mass[0] = 0.5;
+  p.density[0] = 1500;
+  return p;
+}
+
+/// A step of `dt` after one of the same size.
+template <class Geometry>
+Work advance(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors) {
+  return integrate(p, scene, mirrors, reach, dt, dt);
+}
+
+TEST(Integrate, FreeFallIsTheParabolaForAnyStepSizes) {
+  const auto scene = scene_with(0.5, GateMotion::remove);
+  const auto mirrors = scene_mirrors(scene);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> step(0.1 * dt, 3 * dt);
+  auto p = one_particle(0.02, 1, 0.3, 2);
+  Work work;
+  double t = 0, before = 0;
+  while (t < 0.3) {
+    const double now = step(random);
+    work.add(integrate(p, scene, mirrors, reach, before, now));
+    t += now;
+    before = now;
+    ASSERT_NEAR(p.position[0][0], 0.02 + 0.3 * t, 1e-13);
+    ASSERT_NEAR(p.position[1][0], 1 + 2 * t - 0.5 * g * t * t, 1e-13);
+    ASSERT_NEAR(p.velocity[1][0], 2 - g * (t - 0.5 * now), 1e-13) << "the velocity of half a step ago";
+  }
+  EXPECT_EQ(work.total(), 0);
+  EXPECT_EQ(work.guarded, 0);
+}
+
+/// A particle on the floor, which carries its weight, under a horizontal `push`, m/s2.
+Particles<PlaneStrain> on_the_floor(double velocity, double push) {
+  auto p = one_particle(0.02, 0.5 * spacing, velocity, 0);
+  p.wall_acceleration[1][0] = g;
+  p.stress_acceleration[0][0] = push;
+  return p;
+}
+
+TEST(Integrate, ASlidingParticleSlowsDownByFrictionTimesItsWeight) {
+  const auto scene = scene_with(0.4);
+  for (const double velocity : {0.2, -0.2}) {
+    auto p = on_the_floor(velocity, 0);
+    const auto stop = int(std::abs(velocity) / (0.4 * g * dt)); // whole steps before it stands
+    Work work;
+    for (int n = 1; n <= stop + 50; ++n) {
+      work.add(advance(p, scene, scene_mirrors(scene)));
+      const double expected = n <= stop ? velocity - std::copysign(0.4 * g * n * dt, velocity) : 0;
+      ASSERT_NEAR(p.velocity[0][0], expected, 1e-13);
+    }
+    EXPECT_EQ(p.velocity[0][0], 0) << "stands, and stays";
+    EXPECT_EQ(p.position[1][0], 0.5 * spacing);
+    EXPECT_NEAR(work.friction, -0.5 * p.mass[0] * velocity * velocity, 1e-15);
+    EXPECT_EQ(work.total(), work.friction);
+  }
+}
+
+TEST(Integrate, AParticleSticksUntilPushedHarderThanFriction) {
+  const auto scene = scene_with(0.4);
+  auto held = on_the_floor(0, 0.39 * g), pushed = on_the_floor(0, 0.41 * g);
+  for (int n = 0; n < 100; ++n) {
+    advance(held, scene, scene_mirrors(scene));
+    advance(pushed, scene, scene_mirrors(scene));
+  }
+  EXPECT_EQ(held.position[0][0], 0.02);
+  EXPECT_NEAR(pushed.velocity[0][0], 0.01 * g * 100 * dt, 1e-13);
+}
+
+TEST(Integrate, NoFrictionAboveTheFloorNorWhereItPulls) {
+  const auto scene = scene_with(0.4);
+  auto high = on_the_floor(0.2, 0), pulled = high;
+  high.position[1][0] = reach;
+  pulled.wall_acceleration[1][0] = -g;
+  advance(high, scene, scene_mirrors(scene));
+  advance(pulled, scene, scene_mirrors(scene));
+  EXPECT_EQ(high.velocity[0][0], 0.2);
+  EXPECT_EQ(pulled.velocity[0][0], 0.2);
+}
+
+TEST(Integrate, AnImpactOnTheFloorTakesTangentialSpeedToo) {
+  const auto scene = scene_with(0.4);
+  auto p = one_particle(0.02, (contact_gap + 1e-6) * spacing, 3, -2);
+  const Work work = advance(p, scene, scene_mirrors(scene));
+  EXPECT_EQ(p.velocity[1][0], 0);
+  EXPECT_NEAR(p.velocity[0][0], 3 - 0.4 * (2 + g * dt), 1e-13);
+  EXPECT_EQ(p.position[1][0], contact_gap * spacing);
+  EXPECT_EQ(work.guarded, 1);
+}
+
+TEST(Integrate, NothingPassesAxisFloorOrGate) {
+  const auto scene = scene_with(0.3);
+  const auto mirrors = scene_mirrors(scene);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> place(0.001, 0.049);
+  std::normal_distribution<double> speed(0, 50); // up to several spacings per step
+  Particles<PlaneStrain> p;
+  p.resize(1003, 0);
+  for (int i = 0; i < p.count; ++i)
+    for (auto& x : p.position) x[i] = place(random);
+  long guarded = 0;
+  for (int n = 0; n < 300; ++n) {
+    for (int i = 0; i < p.count; ++i)
+      for (auto& v : p.velocity) v[i] = speed(random);
+    guarded += advance(p, scene, mirrors).guarded;
+    for (int i = 0; i < p.count; ++i) {
+      ASSERT_GE(p.position[0][i], axis_gap * spacing);
+      ASSERT_LE(p.position[0][i], 0.05 - contact_gap * spacing);
+      ASSERT_GE(p.position[1][i], contact_gap * spacing);
+    }
+  }
+  EXPECT_GT(guarded, 1000);
+}
+
+TEST(Integrate, WorkClosesTheEnergyWithoutGravity) {
+  auto scene = scene_with(0.3);
+  scene.gravity = 0;
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> place(0.001, 0.049);
+  std::normal_distribution<double> normal;
+  Particles<Axisymmetric> p;
+  p.resize(205, 0);
+  for (int i = 0; i < p.count; ++i) {
+    p.mass[i] = 1 + place(random);
+    for (int a = 0; a < 2; ++a) {
+      p.position[a][i] = place(random);
+      p.velocity[a][i] = normal(random);
+    }
+  }
+  Work work;
+  const double before = kinetic_energy(p);
+  for (int n = 0; n < 200; ++n) {
+    for (auto* kind : {&p.stress_acceleration, &p.viscous_acceleration, &p.wall_acceleration})
+      for (auto& a : *kind)
+        for (int i = 0; i < p.count; ++i) a[i] = 100 * normal(random);
+    work.add(advance(p, scene, scene_mirrors(scene)));
+  }
+  EXPECT_NEAR(kinetic_energy(p) - before, work.total(), 1e-12 * before);
+  EXPECT_LT(work.friction, 0);
+  EXPECT_GT(work.guarded, 100);
+}
+
+TEST(Integrate, TheGateHoldsAboveItsEdgeOnly) {
+  const auto scene = scene_with(0, GateMotion::lift);
+  auto mirrors = scene_mirrors(scene);
+  move_gate(mirrors, scene, 0.02 / 1.6);
+  auto above = one_particle(0.0495, 0.021, 30, 0), below = one_particle(0.0495, 0.019, 30, 0),
+       outside = one_particle(0.051, 0.021, 30, 0);
+  for (auto* p : {&above, &below, &outside}) advance(*p, scene, mirrors);
+  EXPECT_EQ(above.position[0][0], 0.05 - contact_gap * spacing);
+  EXPECT_EQ(above.velocity[0][0], 0);
+  EXPECT_NEAR(below.position[0][0], 0.0525, 1e-15);
+  EXPECT_NEAR(outside.position[0][0], 0.054, 1e-15);
+}
+
+TEST(Integrate, EnergiesAreTheTextbooks) {
+  const auto p = one_particle(0.1, 0.2, 3, 4);
+  EXPECT_DOUBLE_EQ(kinetic_energy(p), 0.5 * 0.5 * 25);
+  EXPECT_DOUBLE_EQ(potential_energy(p, g), 0.5 * g * 0.2);
+}
+
+} // namespace

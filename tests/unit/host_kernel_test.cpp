@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernel: a partition of unity in two and three dimensions, its slope, its end.
+#include "host/kernel.hpp"
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace host;
+
+constexpr double h = 0.003; // m
+
+/// Simpson's rule over the support; the integrand is a polynomial.
+template <class F> double integral(const F& f) {
+  constexpr int panels = 4000;
+  const double width = 2 * h / panels;
+  double sum = f(0.0) + f(2 * h);
+  for (int k = 1; k < panels; ++k) sum += (k % 2 ? 4 : 2) * f(k * width);
+  return sum * width / 3;
+}
+
+TEST(Kernel, IntegratesToOne) {
+  const Kernel<2> disc(h);
+  const Kernel<3> ball(h);
+  constexpr double pi = std::numbers::pi;
+  EXPECT_NEAR(integral([&](double r) { return 2 * pi * r * disc.value(r); }), 1, 1e-12);
+  EXPECT_NEAR(integral([&](double r) { return 4 * pi * r * r * ball.value(r); }), 1, 1e-12);
+}
+
+TEST(Kernel, SecondMomentOfTheSlopeIsOneInEachDirection) {
+  // Partial integration: the moment matrix of a complete support is the unit matrix.
+  const Kernel<2> disc(h);
+  const Kernel<3> ball(h);
+  constexpr double pi = std::numbers::pi;
+  EXPECT_NEAR(integral([&](double r) { return -pi * r * r * r * disc.gradient_factor(r); }), 1, 1e-12);
+  EXPECT_NEAR(integral([&](double r) { return -4 * pi / 3 * r * r * r * r * ball.gradient_factor(r); }), 1,
+              1e-12);
+}
+
+TEST(Kernel, SlopeIsThatOfItsValue) {
+  const Kernel<2> kernel(h);
+  for (double r = 0.05 * h; r < 2 * h; r += 0.1 * h) {
+    const double step = 1e-4 * h;
+    const double difference = (kernel.value(r + step) - kernel.value(r - step)) / (2 * step);
+    EXPECT_NEAR(r * kernel.gradient_factor(r), difference, 1e-7 * kernel.alpha / h) << r / h;
+  }
+  EXPECT_DOUBLE_EQ(kernel.gradient_factor(0.0), kernel.slope);
+}
+
+TEST(Kernel, IsExactlyZeroBeyondItsSupport) {
+  const Kernel<2> kernel(h);
+  for (const double r : {kernel.support * (1 + 1e-15), 2.001 * h, 1.0, 1e30}) {
+    EXPECT_EQ(kernel.value(r), 0);
+    EXPECT_EQ(kernel.gradient_factor(r), 0);
+  }
+  EXPECT_GT(kernel.value(1.999 * h), 0);
+  EXPECT_LT(kernel.gradient_factor(1.999 * h), 0);
+}
+
+TEST(Kernel, LanesAgreeWithSingleNumbers) {
+  const Kernel<2> kernel(h);
+  for (int first = 0; first < 32; first += lanes) {
+    Lane r;
+    for (int l = 0; l < lanes; ++l) r[l] = 0.1 * (first + l) * h;
+    const Lane value = kernel.value(r), factor = kernel.gradient_factor(r);
+    for (int l = 0; l < lanes; ++l) {
+      EXPECT_NEAR(value[l], kernel.value(double(r[l])), 1e-15 * kernel.alpha);
+      EXPECT_NEAR(factor[l], kernel.gradient_factor(double(r[l])), -1e-15 * kernel.slope);
+    }
+  }
+}
+
+} // namespace

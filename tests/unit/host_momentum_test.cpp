@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pair forces: antisymmetric, adjoint to the velocity gradient, dissipative; diffusion of stress.
+#include "host/geometry.hpp"
+#include "host/simulation.hpp"
+#include <gtest/gtest.h>
+#include <omp.h>
+#include <random>
+
+namespace {
+
+using namespace host;
+
+constexpr double spacing = 0.002; // m
+
+Scene scene_without_walls() {
+  Scene scene;
+  scene.spacing = spacing;
+  scene.gravity = 9.81;
+  scene.bulk_density = 1500;
+  scene.earth_pressure_ratio = 0.5;
+  return scene;
+}
+
+/// A disordered block away from the axis, with random stress and velocity.
+template <class Geometry> Simulation<Geometry> cloud(int columns, int rows, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> jitter(-0.3, 0.3);
+  std::normal_distribution<double> normal;
+  const Scene scene = scene_without_walls();
+  Simulation<Geometry> s{.scene = scene, .kernel = Kernel<2>(scene.numerics.smoothing_length * spacing)};
+  auto& p = s.particles;
+  p.resize(columns * rows, 0);
+  for (int i = 0; i < p.count; ++i) {
+    p.id[i] = i;
+    p.position[0][i] = (20 + i % columns + jitter(random)) * spacing;
+    p.position[1][i] = (20 + i / columns + jitter(random)) * spacing;
+    for (int a = 0; a < 2; ++a) p.velocity[a][i] = normal(random);
+    for (int c = 0; c < 4; ++c) p.stress[c][i] = 1e3 * normal(random);
+    p.density[i] = 1500 * (1 + jitter(random));
+    p.mass[i] = 1500 * spacing * spacing * Geometry::depth * Geometry::weight(p.position[0][i]);
+    p.wave_speed[i] = 30 * (1 + jitter(random));
+  }
+  sort_particles(p, spacing);
+  s.images = {{}, p.padded(), p.padded()};
+  s.records.motion.resize(p.padded());
+  s.records.stress.resize(p.padded());
+  return s;
+}
+
+template <class Geometry> void find_gradients(Simulation<Geometry>& s) {
+  show_motion(s.particles, s.records);
+  find_neighbours(s.particles, s.images, s.records, s.kernel.support, s.lists);
+  update_gradient(s.particles, s.kernel, s.lists, s.records);
+}
+
+template <class Geometry> void find_forces(Simulation<Geometry>& s) {
+  show_stress(s.particles, s.scene, s.kernel.h, s.records);
+  update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene.numerics);
+}
+
+/// Power of an acceleration, W, and the sum of the absolute parts of it.
+template <class Geometry>
+std::array<double, 2> power(const Particles<Geometry>& p, const std::array<Array, 2>& acceleration) {
+  double sum = 0, size = 0;
+  for (int i = 0; i < p.count; ++i)
+    for (int a = 0; a < 2; ++a) {
+      const double part = p.mass[i] * acceleration[a][i] * p.velocity[a][i];
+      sum += part;
+      size += std::abs(part);
+    }
+  return {sum, size};
+}
+
+/// The sum whose adjoint the stress force is: sum_j V_j (v_j - v_i) (x) grad W_ij, component 2 a + b.
+template <class Geometry> std::array<double, 4> gradient_sum(const Simulation<Geometry>& s, int i) {
+  const auto& motion = s.records.motion;
+  std::array<double, 4> sum{};
+  for (int j = 0; j < s.particles.count; ++j) {
+    double x[2], v[2];
+    for (int a = 0; a < 2; ++a) {
+      x[a] = motion[i].position[a] - motion[j].position[a];
+      v[a] = motion[j].velocity[a] - motion[i].velocity[a];
+    }
+    const double w = motion[j].volume * s.kernel.gradient_factor(std::hypot(x[0], x[1]));
+    for (int e = 0; e < 4; ++e) sum[e] += v[e / 2] * w * x[e % 2];
+  }
+  return sum;
+}
+
+template <class Geometry> void expect_adjoint() {
+  auto s = cloud<Geometry>(13, 11, 1);
+  const auto& p = s.particles;
+  find_gradients(s);
+  find_forces(s);
+  double stress_power = 0;
+  for (int i = 0; i < p.count; ++i) {
+    const double hoop = Geometry::hoop ? p.velocity[0][i] / p.position[0][i] : 0;
+    const auto g = gradient_sum(s, i);
+    stress_power += p.mass[i] / p.density[i] *
+                    (p.stress[0][i] * g[0] + p.stress[1][i] * g[3] + p.stress[2][i] * hoop +
+                     p.stress[3][i] * (g[1] + g[2]));
+  }
+  const auto [by_pairs, size] = power(p, p.stress_acceleration);
+  EXPECT_GT(size, 1);
+  EXPECT_NEAR(by_pairs, -stress_power, 1e-13 * size);
+}
+
+TEST(Momentum, WorkOfPairForcesIsTheStressPowerOfTheGradientSum) {
+  expect_adjoint<PlaneStrain>();
+  expect_adjoint<Axisymmetric>();
+}
+
+TEST(Momentum, PairForcesAreAntisymmetric) {
+  auto s = cloud<PlaneStrain>(2, 1, 2);
+  const auto& p = s.particles;
+  find_gradients(s);
+  find_forces(s);
+  for (const auto* acceleration : {&p.stress_acceleration, &p.viscous_acceleration})
+    for (const auto& a : *acceleration) {
+      EXPECT_NE(a[0], 0);
+      EXPECT_NEAR(p.mass[0] * a[0], -p.mass[1] * a[1], 1e-14 * std::abs(p.mass[0] * a[0]));
+    }
+}
+
+TEST(Momentum, OfACloudIsKept) {
+  auto s = cloud<PlaneStrain>(13, 11, 3);
+  const auto& p = s.particles;
+  find_gradients(s);
+  find_forces(s);
+  for (const auto* acceleration : {&p.stress_acceleration, &p.viscous_acceleration})
+    for (const auto& a : *acceleration) {
+      double sum = 0, size = 0;
+      for (int i = 0; i < p.count; ++i) {
+        sum += p.mass[i] * a[i];
+        size += std::abs(p.mass[i] * a[i]);
+      }
+      EXPECT_GT(size, 0);
+      EXPECT_NEAR(sum, 0, 1e-13 * size);
+    }
+}
+
+/// Gives all particles the velocity field v = v0 + G x and its gradient.
+template <class Geometry> void move_linearly(Particles<Geometry>& p, const double (&slope)[4]) {
+  for (int i = 0; i < p.count; ++i)
+    for (int a = 0; a < 2; ++a) {
+      p.velocity[a][i] = 0.3 + slope[2 * a] * p.position[0][i] + slope[2 * a + 1] * p.position[1][i];
+      for (int b = 0; b < 2; ++b) p.velocity_gradient[2 * a + b][i] = slope[2 * a + b];
+    }
+}
+
+double largest(const std::array<Array, 2>& acceleration, int count) {
+  double most = 0;
+  for (const auto& a : acceleration)
+    for (int i = 0; i < count; ++i) most = std::max(most, std::abs(a[i]));
+  return most;
+}
+
+TEST(Momentum, ViscosityLeavesALinearFlowAlone) {
+  auto s = cloud<Axisymmetric>(13, 11, 4);
+  auto& p = s.particles;
+  find_gradients(s);
+  move_linearly(p, {-40, 25, 10, 30});
+  find_forces(s);
+  const double resolved = largest(p.viscous_acceleration, p.count);
+  for (auto& g : p.velocity_gradient) g.assign(g.size(), 0.0);
+  find_forces(s);
+  EXPECT_LT(resolved, 1e-12 * largest(p.viscous_acceleration, p.count));
+}
+
+template <class Geometry> void expect_dissipation() {
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1); // hundreds of tiny clouds
+  for (int seed = 0; seed < 300; ++seed) {
+    auto s = seed < 290 ? cloud<Geometry>(2, 1, seed) : cloud<Geometry>(13, 11, seed);
+    auto& p = s.particles;
+    find_gradients(s);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal(0, 500); // whatever the gradients are
+    for (auto& g : p.velocity_gradient)
+      for (int i = 0; i < p.count; ++i) g[i] = normal(random);
+    find_forces(s);
+    const auto [sum, size] = power(p, p.viscous_acceleration);
+    EXPECT_LE(sum, 1e-14 * size) << "seed " << seed;
+  }
+  omp_set_num_threads(threads);
+}
+
+TEST(Momentum, ViscosityNeverGivesEnergy) {
+  expect_dissipation<PlaneStrain>();
+  expect_dissipation<Axisymmetric>();
+}
+
+/// Rates of stress diffusion in a uniform flow of shear rate 50 / s.
+template <class Geometry> void find_diffusion(Simulation<Geometry>& s) {
+  find_gradients(s);
+  move_linearly(s.particles, {0, 50, 0, 0});
+  find_forces(s);
+}
+
+TEST(Momentum, StressDiffusionConservesAndSmooths) {
+  auto s = cloud<PlaneStrain>(13, 11, 5);
+  s.scene.gravity = 0;
+  find_diffusion(s);
+  const auto& p = s.particles;
+  for (int c = 0; c < 4; ++c) {
+    double total = 0, size = 0, change = 0;
+    for (int i = 0; i < p.count; ++i) {
+      const double rate = p.mass[i] / p.density[i] * p.stress_diffusion[c][i];
+      total += rate;
+      size += std::abs(rate);
+      change += rate * p.stress[c][i];
+    }
+    EXPECT_NEAR(total, 0, 1e-13 * size);
+    EXPECT_LT(change, 0) << "the sum of squares falls";
+  }
+}
+
+TEST(Momentum, StressDiffusionIsThatOfTheHeatEquation) {
+  // On a lattice, of stress x^2: rate = 2 diffusivity; delta h2 |grad v| of the flow above.
+  auto s = cloud<PlaneStrain>(21, 21, 6);
+  s.scene.gravity = 0;
+  auto& p = s.particles;
+  for (int i = 0; i < p.count; ++i) {
+    for (auto& x : p.position) x[i] = std::round(x[i] / spacing) * spacing;
+    p.density[i] = 1500;
+    p.stress[0][i] = p.position[0][i] * p.position[0][i];
+  }
+  find_diffusion(s);
+  const double diffusivity = s.scene.numerics.stress_diffusion * s.kernel.h * s.kernel.h * 50;
+  int interior = 0;
+  for (int i = 0; i < p.count; ++i) {
+    if (std::abs(p.position[0][i] / spacing - 30) > 6.5 || std::abs(p.position[1][i] / spacing - 30) > 6.5)
+      continue;
+    ++interior;
+    EXPECT_NEAR(p.stress_diffusion[0][i], 2 * diffusivity, 0.02 * 2 * diffusivity);
+  }
+  EXPECT_EQ(interior, 13 * 13);
+}
+
+TEST(Momentum, GeostaticStressDoesNotDiffuse) {
+  auto s = cloud<PlaneStrain>(13, 11, 7);
+  auto& p = s.particles;
+  for (int i = 0; i < p.count; ++i) {
+    const double vertical = -1500 * 9.81 * (0.1 - p.position[1][i]);
+    p.stress[0][i] = 0.5 * vertical;
+    p.stress[1][i] = vertical;
+    p.stress[2][i] = 0.5 * vertical;
+    p.stress[3][i] = 7;
+  }
+  find_diffusion(s);
+  const double diffusivity = s.scene.numerics.stress_diffusion * s.kernel.h * s.kernel.h * 50;
+  const double rounding = 1e-12 * 1500 * diffusivity / (spacing * spacing);
+  for (const auto& rate : p.stress_diffusion)
+    for (int i = 0; i < p.count; ++i) EXPECT_NEAR(rate[i], 0, rounding);
+}
+
+} // namespace

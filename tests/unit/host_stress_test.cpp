@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stress stage: what the material is shown, what becomes of its answer, and who is blamed.
+#include "host/geometry.hpp"
+#include "host/stress.hpp"
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <limits>
+#include <omp.h>
+#include <random>
+
+namespace {
+
+using namespace host;
+
+constexpr double young = 4e6, poisson = 0.2, dt = 1e-4; // Pa, -, s
+
+Material elastic() {
+  return {load_vumat(SIMSAND_BINARY_DIR "/test_vumats/libelastic.so"), "ELASTIC", {young, poisson}, 1};
+}
+
+template <class Geometry> Particles<Geometry> random_particles(int count) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  Particles<Geometry> p;
+  p.resize(count, 1);
+  for (int i = 0; i < count; ++i) {
+    p.id[i] = 1000 + i;
+    p.position[0][i] = 0.01 + 1e-4 * i;
+    p.position[1][i] = 0.02;
+    for (auto& v : p.velocity) v[i] = normal(random);
+    for (auto& g : p.velocity_gradient) g[i] = normal(random);
+    for (auto& s : p.stress) s[i] = 1e3 * normal(random);
+    for (auto& s : p.stress_diffusion) s[i] = 1e5 * normal(random);
+    p.density[i] = 1500 + 10 * normal(random);
+  }
+  return p;
+}
+
+/// A material whose stress stays; NaN for points at x = props[0] or beyond, in the array props[1] names.
+void stays(const int* nblock, const int*, const int* nshr, const int*, const int*, const int*, const int*,
+           const double*, const double*, const double*, const char*, const double* coordinates, const double*,
+           const double* props, const double*, const double*, const double*, const double*, const double*,
+           const double*, const double*, const double* old, const double*, const double*, const double*,
+           const double*, const double*, const double*, const double*, double* stress, double* state, double*,
+           double*, std::size_t) {
+  std::copy_n(old, *nblock * (3 + *nshr), stress);
+  for (int k = 0; k < *nblock; ++k)
+    if (coordinates[k] >= props[0])
+      (props[1] == 0 ? stress[3 * *nblock + k] : state[k]) = std::numeric_limits<double>::quiet_NaN();
+}
+
+Material staying(double nan_from = 1e9, double in_state = 0) {
+  return {{"stays", nullptr, stays}, "STAYS", {nan_from, in_state}, 1};
+}
+
+template <class Geometry> void update(Particles<Geometry>& p, const Material& material, double time = dt) {
+  auto blocks = make_stress_blocks(material, p, 0.002);
+  update_stress(p, material, {time, time, dt}, blocks);
+}
+
+TEST(Stress, TurnsWithTheMaterial) {
+  auto p = random_particles<PlaneStrain>(70);
+  for (auto& s : p.stress_diffusion) s.assign(s.size(), 0.0);
+  const auto before = p;
+  const double angle = 0.1; // per step, from axis 1 to axis 2
+  for (auto& g : p.velocity_gradient) g.assign(g.size(), 0.0);
+  p.velocity_gradient[2].assign(p.padded(), angle / dt);
+  p.velocity_gradient[1].assign(p.padded(), -angle / dt);
+  for (int step = 0; step < 7; ++step) update(p, staying());
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(7 * angle).toRotationMatrix();
+  for (int i = 0; i < p.count; ++i) {
+    Eigen::Matrix2d s;
+    s << before.stress[0][i], before.stress[3][i], before.stress[3][i], before.stress[1][i];
+    s = turn * s * turn.transpose();
+    EXPECT_NEAR(p.stress[0][i], s(0, 0), 1e-9);
+    EXPECT_NEAR(p.stress[1][i], s(1, 1), 1e-9);
+    EXPECT_NEAR(p.stress[3][i], s(0, 1), 1e-9);
+    EXPECT_EQ(p.stress[2][i], before.stress[2][i]);
+    EXPECT_EQ(p.density[i], before.density[i]);
+  }
+}
+
+TEST(Stress, OfLinearElasticityIsHookesLaw) {
+  auto p = random_particles<Axisymmetric>(197);
+  for (int i = 0; i < p.count; ++i) p.velocity_gradient[2][i] = p.velocity_gradient[1][i]; // no spin
+  const auto before = p;
+  update(p, elastic());
+  const double twice_g = young / (1 + poisson), lambda = twice_g * poisson / (1 - 2 * poisson);
+  for (int i = 0; i < p.count; ++i) {
+    const auto& g = before.velocity_gradient;
+    const double strain[4] = {g[0][i] * dt, g[3][i] * dt, before.velocity[0][i] / before.position[0][i] * dt,
+                              g[1][i] * dt};
+    const double volume = strain[0] + strain[1] + strain[2];
+    for (int c = 0; c < 4; ++c)
+      EXPECT_NEAR(p.stress[c][i],
+                  before.stress[c][i] + before.stress_diffusion[c][i] * dt + twice_g * strain[c] +
+                      (c < 3 ? lambda * volume : 0),
+                  1e-8);
+    EXPECT_NEAR(p.density[i], before.density[i] * std::exp(-volume),
+                0.1 * std::abs(std::pow(volume, 3)) * 1500);
+    EXPECT_EQ(p.state[0][i], 1) << "one call";
+  }
+}
+
+TEST(Stress, DoesNotDependOnThreadsOrOnTheBlock) {
+  const int threads = omp_get_max_threads(), count = 5 * StressBlocks::points + 17;
+  auto one = random_particles<Axisymmetric>(count), three = one;
+  const auto start = one;
+  omp_set_num_threads(1);
+  update(one, elastic());
+  omp_set_num_threads(3);
+  update(three, elastic());
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one.stress, three.stress);
+  EXPECT_EQ(one.density, three.density);
+  EXPECT_EQ(one.internal_energy, three.internal_energy);
+
+  for (const int i : {0, 63, 64, 200, count - 1}) { // alone in a block of one
+    Particles<Axisymmetric> alone;
+    alone.resize(1, 1);
+    for (int a = 0; a < 2; ++a) {
+      alone.position[a][0] = start.position[a][i];
+      alone.velocity[a][0] = start.velocity[a][i];
+    }
+    for (int c = 0; c < 4; ++c) {
+      alone.stress[c][0] = start.stress[c][i];
+      alone.stress_diffusion[c][0] = start.stress_diffusion[c][i];
+      alone.velocity_gradient[c][0] = start.velocity_gradient[c][i];
+    }
+    alone.density[0] = start.density[i];
+    update(alone, elastic());
+    for (int c = 0; c < 4; ++c) EXPECT_EQ(alone.stress[c][0], one.stress[c][i]);
+    EXPECT_EQ(alone.internal_energy[0], one.internal_energy[i]);
+  }
+}
+
+std::string error_of_update(Particles<PlaneStrain>& p, const Material& material, double time) {
+  try {
+    update(p, material, time);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Stress, NamesTheFirstParticleWithoutANumber) {
+  for (const int first : {0, 3, 64, 150, 196})
+    for (const double in_state : {0, 1}) {
+      auto p = random_particles<PlaneStrain>(197);
+      for (auto& s : p.stress) s.assign(s.size(), 0.0);
+      for (auto& s : p.stress_diffusion) s.assign(s.size(), 0.0);
+      for (auto& g : p.velocity_gradient) g.assign(g.size(), 0.0);
+      p.stress[1].assign(p.padded(), -1234);
+      p.velocity_gradient[0].assign(p.padded(), 20);
+      const double from = p.position[0][first];
+      const auto error = error_of_update(p, staying(from, in_state), 0.375);
+      const auto says = [&](const std::string& part) { return error.find(part) != std::string::npos; };
+      EXPECT_TRUE(says("STAYS")) << error;
+      EXPECT_TRUE(says("particle " + std::to_string(1000 + first) + " at time 0.375 s")) << error;
+      EXPECT_TRUE(says("(0, -1234, 0, 0) Pa")) << error;
+      EXPECT_TRUE(says("(0.002, 0, 0, 0)")) << error;
+      EXPECT_EQ(error.find('\n'), std::string::npos);
+      EXPECT_TRUE(std::isfinite(p.stress[3][first])) << "the last good stress stays";
+    }
+}
+
+TEST(Stress, WaveSpeedIsThatOfUniaxialStrain) {
+  auto p = random_particles<PlaneStrain>(197);
+  const auto before = p;
+  const auto material = elastic();
+  auto blocks = make_stress_blocks(material, p, 0.002);
+  update_wave_speed(p, material, blocks);
+  const double bulk = young / (3 * (1 - 2 * poisson)), shear = young / (2 * (1 + poisson));
+  for (int i = 0; i < p.count; ++i)
+    EXPECT_NEAR(p.wave_speed[i], std::sqrt((bulk + 4 * shear / 3) / p.density[i]), 1e-6);
+  EXPECT_EQ(p.stress, before.stress) << "a question, not a step";
+  EXPECT_EQ(p.state, before.state);
+}
+
+} // namespace

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The collapse itself: the default scene's acceptance, energy, refinement, trends, and that neither the
+// number of threads nor a second run changes anything.
+#include "drivers/laws.hpp"
+#include "host/geometry.hpp"
+#include "host/metrics.hpp"
+#include "host/output.hpp"
+#include "host/simulation.hpp"
+#include "tests/verification/scenes.hpp"
+#include <H5Cpp.h>
+#include <cmath>
+#include <omp.h>
+
+namespace {
+
+using tests::value_of;
+
+std::vector<double> series(const std::string& folder, const std::string& column) {
+  const auto dataset = H5::H5File(folder + "/result.h5", H5F_ACC_RDONLY).openDataSet("series/" + column);
+  std::vector<double> values(dataset.getSpace().getSimpleExtentNpoints());
+  dataset.read(values.data(), H5::PredType::NATIVE_DOUBLE);
+  return values;
+}
+
+drivers::Summary collapse(const tests::ColumnCase& c, const std::string& name) {
+  const auto summary = drivers::run_scene(tests::column_scene(c, name), {.quiet = true});
+  std::printf("%s: h_f/r0 %.3f, runout %.3f, rest after %.3f s\n", name.c_str(),
+              value_of(summary, "final_height"), value_of(summary, "runout"),
+              value_of(summary, "time_to_rest"));
+  return summary;
+}
+
+std::string folder_of(const std::string& name) {
+  return std::string(SIMSAND_BINARY_DIR) + "/test_results/" + name;
+}
+
+/// The default scene: TS dense, a = 1, axisymmetric, 2 mm. Run once for all tests that look at it.
+const drivers::Summary& default_summary() {
+  static const auto summary = collapse({}, "default");
+  return summary;
+}
+
+TEST(DefaultScene, ComesToRestAboveTheQuasiStaticCone) {
+  const auto& summary = default_summary();
+  EXPECT_TRUE(std::isfinite(value_of(summary, "time_to_rest")));
+  const auto laws = drivers::column_laws(host::GeometryKind::axisymmetric, 1, 24);
+  const auto& cone = laws.back();
+  EXPECT_GT(value_of(summary, "final_height"), 0.95 * cone.height);
+  EXPECT_LT(value_of(summary, "runout"), 1.25 * cone.runout);
+}
+
+TEST(DefaultScene, ItsEnergyIsClosed) {
+  EXPECT_LT(value_of(default_summary(), "energy_imbalance"), 0.005);
+}
+
+TEST(DefaultScene, DissipationNeverRunsBackwards) {
+  default_summary();
+  const auto folder = folder_of("default");
+  const auto plastic = series(folder, "inelastic_energy"), viscous = series(folder, "work_viscosity"),
+             friction = series(folder, "work_friction");
+  ASSERT_GT(plastic.size(), 50u);
+  for (std::size_t k = 1; k < plastic.size(); ++k) {
+    EXPECT_GE(plastic[k], plastic[k - 1]);
+    EXPECT_LE(viscous[k], viscous[k - 1]);
+    EXPECT_LE(friction[k], friction[k - 1]);
+  }
+}
+
+TEST(DefaultScene, VoidRatiosAreThoseOfTheMaterialAndOfTheSpacing) {
+  default_summary();
+  EXPECT_NEAR(value_of(default_summary(), "outline_over_particle_volume"), 1, 0.05);
+  const H5::H5File file(folder_of("default") + "/result.h5", H5F_ACC_RDONLY);
+  const auto snapshots = file.openGroup("snapshots");
+  const auto last = snapshots.openGroup(snapshots.getObjnameByIdx(snapshots.getNumObjs() - 1));
+  const auto read = [&](const std::string& name) {
+    const auto dataset = last.openDataSet(name);
+    std::vector<double> values(dataset.getSpace().getSimpleExtentNpoints());
+    dataset.read(values.data(), H5::PredType::NATIVE_DOUBLE);
+    return values;
+  };
+  const auto stress = read("stress"), e = read("state_void_ratio");
+  int carrying = 0, within = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const double p = -(stress[4 * i] + stress[4 * i + 1] + stress[4 * i + 2]) / 3;
+    if (p < 20) continue;
+    const double critical = 0.76 - 0.04 * std::pow(p / 101325, 0.3); // (3), material TS
+    ++carrying;
+    within += e[i] > 0.4451 - 0.02 && e[i] < critical + 0.05;
+  }
+  EXPECT_GT(carrying, 300);
+  EXPECT_GE(within, 0.98 * carrying);
+}
+
+/// Mean of three runs that differ in the step alone: a deposit is made of colliding particles, and single
+/// runs scatter by about half a per cent of r0 in height and one in runout.
+struct Deposit {
+  double height = 0, runout = 0;
+};
+Deposit mean_deposit(double spacing, const std::string& name) {
+  Deposit mean;
+  for (const std::string factor : {"0.40", "0.38", "0.36"}) {
+    const auto summary = collapse({.spacing = spacing, .numerics = "step_factor = " + factor}, name + factor);
+    EXPECT_LT(value_of(summary, "energy_imbalance"), 0.005);
+    mean.height += value_of(summary, "final_height") / 3;
+    mean.runout += value_of(summary, "runout") / 3;
+  }
+  std::printf("spacing %g mm, mean of three: h_f/r0 %.3f, runout %.3f\n", 1e3 * spacing, mean.height,
+              mean.runout);
+  return mean;
+}
+
+TEST(Refinement, HalvingTheSpacingMovesTheDepositByLessAndLess) {
+  const auto coarse = mean_deposit(0.004, "refine_4mm_"), middle = mean_deposit(0.002, "refine_2mm_"),
+             fine = mean_deposit(0.001, "refine_1mm_");
+  EXPECT_LT(std::abs(fine.height - middle.height), std::abs(middle.height - coarse.height));
+  EXPECT_LT(std::abs(fine.runout - middle.runout), std::abs(middle.runout - coarse.runout));
+}
+
+TEST(Trends, ShapeAndPackingOrderTheDeposits) {
+  const auto ss_dense = collapse({.material = "SS", .void_ratio = 0.5798}, "ss_dense");
+  const auto ss_loose = collapse({.material = "SS", .void_ratio = 0.8215}, "ss_loose");
+  const auto ts_loose = collapse({.void_ratio = 0.8762}, "ts_loose");
+  const auto es_dense = collapse({.material = "ES", .void_ratio = 0.4493}, "es_dense");
+  const auto ts_dense = collapse({}, "ts_dense");
+  const auto height = [](const auto& s) { return value_of(s, "final_height"); };
+  const auto runout = [](const auto& s) { return value_of(s, "runout"); };
+  EXPECT_GT(height(ss_dense), height(ss_loose));
+  EXPECT_GT(height(ts_dense), height(ts_loose));
+  EXPECT_LT(runout(ts_dense), runout(ts_loose));
+  EXPECT_LT(height(ss_dense), height(ts_dense));
+  EXPECT_GT(runout(ss_dense), runout(ts_dense));
+  EXPECT_NEAR(height(es_dense), height(ts_dense), 0.1);
+  EXPECT_NEAR(runout(es_dense), runout(ts_dense), 0.15);
+}
+
+TEST(PlaneStrainColumn, CollapsesWithItsEnergyClosed) {
+  const auto summary = collapse(
+      {.geometry = "plane_strain", .material = "SS", .void_ratio = 0.5798, .spacing = 0.0025}, "plane");
+  EXPECT_LT(value_of(summary, "energy_imbalance"), 0.005);
+  EXPECT_GT(value_of(summary, "final_height"), 0.6);
+  EXPECT_NEAR(value_of(summary, "outline_over_particle_volume"), 1, 0.05);
+}
+
+TEST(NoSlipFloor, HoldsMoreThanAFrictionlessOne) {
+  const auto rough = collapse({.spacing = 0.004, .friction = "\"no-slip\""}, "no_slip");
+  const auto smooth = collapse({.spacing = 0.004, .friction = "0"}, "smooth");
+  EXPECT_LT(value_of(rough, "runout"), value_of(smooth, "runout"));
+  EXPECT_LT(value_of(rough, "energy_imbalance"), 0.005);
+  EXPECT_EQ(value_of(smooth, "work_friction"), 0);
+}
+
+TEST(Threads, DoNotChangeABit) {
+  const auto run = [](int threads) {
+    omp_set_num_threads(threads);
+    auto s = host::start_simulation<host::Axisymmetric>(tests::column_scene({.spacing = 0.0025}, "threads"));
+    while (s.time < 0.05) host::step(s);
+    return s;
+  };
+  const int usual = omp_get_max_threads();
+  const auto one = run(1), two = run(2), three = run(3);
+  omp_set_num_threads(usual);
+  for (const auto* other : {&two, &three}) {
+    EXPECT_EQ(one.steps, other->steps);
+    EXPECT_EQ(one.particles.id, other->particles.id);
+    for (int c = 0; c < 4; ++c) EXPECT_EQ(one.particles.stress[c], other->particles.stress[c]);
+    for (int a = 0; a < 2; ++a) EXPECT_EQ(one.particles.position[a], other->particles.position[a]);
+    EXPECT_EQ(one.work.total(), other->work.total());
+  }
+}
+
+TEST(StoredScene, GivesTheSameNumbersAgain) {
+  const auto first = collapse({.spacing = 0.004}, "stored");
+  auto again = drivers::read_scene(folder_of("stored") + "/result.h5");
+  EXPECT_EQ(again.output_folder, folder_of("stored"));
+  again.output_folder = tests::fresh_folder("stored_again");
+  const auto second = drivers::run_scene(again, {.quiet = true});
+  for (const std::string quantity : {"final_height", "runout", "work_stress", "steps"})
+    EXPECT_EQ(value_of(first, quantity), value_of(second, quantity)) << quantity;
+}
+
+} // namespace
