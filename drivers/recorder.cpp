@@ -75,6 +75,7 @@ Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
 }
 
 template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation<Geometry>& s) {
+  if (!series.empty() && series.back().time == s.time) return;
   const auto& p = s.particles;
   heights = host::outline(p, s.kernel, abscissa);
   Sample now;
@@ -111,6 +112,7 @@ template <class Geometry> void Recorder<Geometry>::observe(const host::Simulatio
 }
 
 template <class Geometry> void Recorder<Geometry>::write_snapshot(const host::Simulation<Geometry>& s) {
+  sample(s);
   if (s.time == last_snapshot) return;
   last_snapshot = s.time;
   const auto& p = s.particles;

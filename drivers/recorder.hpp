@@ -25,7 +25,7 @@ public:
 
   /// Samples and writes what is due at the current time.
   void observe(const host::Simulation<Geometry>& simulation);
-  /// Writes a snapshot now, unless the last one is of this time.
+  /// Writes a sample and a snapshot now, unless the last ones are of this time.
   void write_snapshot(const host::Simulation<Geometry>& simulation);
   /// True once the energy is below the scene's fraction, the height stands still between two samples
   /// and the gate has cleared the column.

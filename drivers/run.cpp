@@ -101,9 +101,14 @@ void print_table(const host::Scene& scene, const Summary& summary, const std::st
   const double aspect = scene.column.height / scene.column.radius;
   for (const auto& law : column_laws(scene.geometry, aspect, scene.friction_angle))
     fmt::print("{:<32}{}{:>4}{}\n", law.source, known(law.height), "", known(law.runout));
-  fmt::print("\n");
+  fmt::print("\nrest after 3 sqrt(h0/g) by Lube et al. 2004: {:.3f} s\n",
+             3 * std::sqrt(scene.column.height / scene.gravity));
+  fmt::print("material's stress power less the work of its pairs: {:.4f} of the initial potential energy\n\n",
+             value("material_stress_power") + value("work_stress"));
   for (const auto& [quantity, number] : summary)
-    fmt::print("{:<32}{:>14.6g}  {}\n", quantity.name, number, quantity.unit == "1" ? "" : quantity.unit);
+    fmt::print("{:<32}{:>14}  {}\n", quantity.name,
+               std::isfinite(number) ? fmt::format("{:.6g}", number) : "-",
+               quantity.unit == "1" ? "" : quantity.unit);
   fmt::print("\nresults: {}\n", file);
 }
 
@@ -125,6 +130,7 @@ template <class Geometry> Summary run(const host::Scene& scene, const RunOptions
     recorder.write_snapshot(simulation);
     throw;
   }
+  recorder.write_snapshot(simulation);
   const Summary summary = summarise(simulation, recorder, progress.elapsed());
   recorder.finish(simulation, summary);
   print_table(scene, summary, recorder.file());

@@ -80,6 +80,7 @@ host::Scene read_scene(const std::string& path) {
   scene.rest_fraction = end.number("kinetic_energy_fraction", {0, 1}, 1e-6);
   const auto output = root.table("output");
   scene.output_folder = output.text("folder");
+  if (scene.output_folder.empty()) output.fail("folder", "the name of a folder", "an empty text");
   scene.sample_interval = output.number("sample_interval", positive);
   scene.snapshot_interval = output.number("snapshot_interval", positive);
   scene.grain_diameter = output.number("grain_diameter", positive);

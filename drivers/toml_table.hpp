@@ -2,6 +2,7 @@
 // Strict reading of TOML: every key must be asked for, every value must be in range, and every error
 // is one line, `FILE:LINE: key 'table.key': expected ..., found ...`, thrown as std::runtime_error.
 #pragma once
+#include "drivers/toml_text.hpp"
 #include <limits>
 #include <memory>
 #include <optional>
@@ -21,7 +22,6 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{std::numeric_limits<double>::denorm_min()};
 inline constexpr Range not_negative{0};
 
-using Words = std::vector<std::string>;
 using NumberOrWord = std::variant<double, std::string>;
 
 /// One table of a TOML document. Copies are handles to the same table. A key without a fallback is
@@ -84,11 +84,5 @@ TomlTable read_toml(const std::string& file_name);
 /// Reads a text; `display_name` is shown in errors, relative paths start at `folder`.
 TomlTable parse_toml(const std::string& text, const std::string& display_name,
                      const std::string& folder = ".");
-
-/// Texts in a row with `separator` between them.
-std::string joined(const Words& texts, std::string_view separator = ", ");
-
-/// A number as TOML text that reads back to the same bits, always with a point or exponent.
-std::string toml_number(double value);
 
 } // namespace drivers

@@ -82,7 +82,8 @@ Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mir
         v[a] = before[a] + kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
                                    p.wall_acceleration[a][i] - (a == up ? scene.gravity : 0));
       }
-      if (!scene.floor.no_slip && from[up] < reach)
+      // Friction goes with the push of the floor, over its reach; without slip the lowest layer stands.
+      if (from[up] < (scene.floor.no_slip ? scene.spacing : reach))
         for (int a = 0; a < up; ++a) {
           by_friction[a] = friction_change(scene.floor, kick * p.wall_acceleration[up][i], v[a]);
           v[a] += by_friction[a];

@@ -2,6 +2,7 @@
 #include "host/metrics.hpp"
 #include "host/geometry.hpp"
 #include <algorithm>
+#include <limits>
 
 namespace host {
 namespace {
@@ -92,7 +93,7 @@ double outline_height(std::span<const double> outline) {
 double front_radius(std::span<const double> radii, std::span<const double> outline, double thickness) {
   for (std::size_t k = radii.size(); k-- > 0;)
     if (outline[k] >= thickness) {
-      if (k + 1 == radii.size()) return radii[k];
+      if (k + 1 == radii.size()) return std::numeric_limits<double>::quiet_NaN();
       const double t = (outline[k] - thickness) / (outline[k] - outline[k + 1]);
       return radii[k] + t * (radii[k + 1] - radii[k]);
     }

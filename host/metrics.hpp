@@ -19,7 +19,8 @@ std::vector<double> outline(const Particles<Geometry>& particles, const Kernel<2
 /// Largest height of an outline.
 double outline_height(std::span<const double> outline);
 
-/// Outermost radius at which the outline is `thickness` high, interpolated; 0 if it is nowhere.
+/// Outermost radius at which the outline is `thickness` high, interpolated; 0 if it is nowhere,
+/// NaN if the deposit reaches past the last radius.
 double front_radius(std::span<const double> radii, std::span<const double> outline, double thickness);
 
 /// Volume under an outline, m3 (plane strain: of the half that is simulated, m2).

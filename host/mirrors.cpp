@@ -18,8 +18,7 @@ template <int D> void reflect_position(const Mirror& m, double (&position)[D]) {
 }
 
 template <int D> void reflect_velocity(const Mirror& m, double (&velocity)[D]) {
-  for (int a = 0; a < D; ++a)
-    if (m.no_slip || a == m.axis) velocity[a] = -velocity[a];
+  velocity[m.axis] = -velocity[m.axis];
 }
 
 } // namespace
@@ -31,7 +30,6 @@ std::vector<Mirror> scene_mirrors(const Scene& scene) {
                      .position = 0,
                      .positive_side = true,
                      .wall = true,
-                     .no_slip = scene.floor.no_slip,
                      .weight_gradient = scene.bulk_density * scene.gravity,
                      .horizontal_ratio = scene.earth_pressure_ratio,
                      .lower_edge = -far};
@@ -112,8 +110,8 @@ void reflect_stress(const Images& images, const std::vector<Mirror>& mirrors, Re
     record.weight = weight;
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) {
-        // Reflection turns the sign of shear on the plane; on a no-slip wall shear continues.
-        const bool turns = !mirror.no_slip && (a == mirror.axis) != (b == mirror.axis);
+        // Reflection turns the sign of shear on the plane; friction is a force of its own.
+        const bool turns = (a == mirror.axis) != (b == mirror.axis);
         if (turns) record.gradient[a * D + b] *= -1;
         if (a > b) continue;
         const int c = component<D>(a, b);

@@ -13,7 +13,6 @@ struct Mirror {
   double position = 0; ///< m
   bool positive_side = true;
   bool wall = false;           ///< its forces are wall forces; false: the material continues
-  bool no_slip = false;        ///< the image moves against the particle in every direction
   double weight_gradient = 0;  ///< N/m3: vertical stress in the image grows downwards by it
   double horizontal_ratio = 0; ///< horizontal over vertical part of that growth
   double lower_edge = 0;       ///< m: acts on what lies above; changes in time

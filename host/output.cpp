@@ -1,164 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/output.hpp"
-#include <H5Cpp.h>
+#include "host/field_rows.hpp"
+#include "host/hdf5_write.hpp"
+#include "host/xdmf.hpp"
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <fmt/format.h>
-#include <fstream>
-#include <iostream>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 
 namespace host {
 namespace {
 
 constexpr int format_version = 1;
-constexpr hsize_t rows_per_chunk = 16384; ///< 128 KiB per component, within HDF5's chunk cache
 constexpr hsize_t samples_per_chunk = 512;
-
-const H5::PredType& real() {
-  return H5::PredType::NATIVE_DOUBLE;
-}
-
-H5::StrType text_type(const std::string& text) {
-  H5::StrType type(H5::PredType::C_S1, std::max<std::size_t>(text.size(), 1));
-  type.setCset(H5T_CSET_UTF8);
-  return type;
-}
-
-/// Keeps the destructors of HDF5's handles from printing when a full disk makes them fail: the error
-/// that led there has been thrown.
-class QuietDestructors {
-public:
-  QuietDestructors() : kept(std::cerr.rdbuf(nullptr)) {}
-  ~QuietDestructors() { std::cerr.rdbuf(kept); }
-  QuietDestructors(const QuietDestructors&) = delete;
-  QuietDestructors& operator=(const QuietDestructors&) = delete;
-
-private:
-  std::streambuf* kept;
-};
-
-/// Makes folder and file writable or says why they are not: HDF5's own text does not.
-void require_writable(const std::filesystem::path& path) {
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  if (error)
-    throw std::runtime_error(fmt::format("{}: cannot create the output folder ({})",
-                                         path.parent_path().string(), error.message()));
-  std::FILE* file = std::fopen(path.c_str(), "ab");
-  if (!file)
-    throw std::runtime_error(fmt::format("{}: cannot create the result file ({})", path.string(),
-                                         std::generic_category().message(errno)));
-  std::fclose(file);
-}
-
-void attribute(const H5::H5Object& object, const std::string& name, const std::string& text) {
-  const auto type = text_type(text);
-  object.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, text);
-}
-
-void attribute(const H5::H5Object& object, const std::string& name, int value) {
-  object.createAttribute(name, H5::PredType::NATIVE_INT, H5::DataSpace(H5S_SCALAR))
-      .write(H5::PredType::NATIVE_INT, &value);
-}
-
-void attribute(const H5::H5Object& object, const std::string& name, double value) {
-  object.createAttribute(name, real(), H5::DataSpace(H5S_SCALAR)).write(real(), &value);
-}
-
-/// A dataset of n rows, (n) or (n, components).
-void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
-                   const std::vector<double>& values, int components = 1) {
-  const hsize_t rows = values.size() / components, columns = components;
-  const hsize_t size[2] = {rows, columns}, chunk[2] = {std::clamp<hsize_t>(rows, 1, rows_per_chunk), columns};
-  const int rank = components > 1 ? 2 : 1;
-  H5::DSetCreatPropList properties;
-  properties.setChunk(rank, chunk);
-  properties.setShuffle();
-  properties.setDeflate(1);
-  const auto dataset = group.createDataSet(name, real(), H5::DataSpace(rank, size), properties);
-  attribute(dataset, "unit", unit);
-  if (!values.empty()) dataset.write(values.data(), real());
-}
-
-/// The field as rows in the order of creation, components interleaved.
-std::vector<double> in_original_order(const Field& field, std::span<const std::int32_t> original,
-                                      std::size_t particles) {
-  const std::size_t components = field.components.size();
-  if (components == 0) throw std::invalid_argument(fmt::format("field {} has no component", field.name));
-  const std::size_t rows = field.components[0].size();
-  if (std::any_of(field.components.begin(), field.components.end(),
-                  [=](auto c) { return c.size() != rows; }) ||
-      (original.empty() ? rows != particles : rows != original.size()))
-    throw std::invalid_argument(fmt::format("field {} does not fit {} particles", field.name, particles));
-  std::vector<double> values(particles * components);
-  std::vector<bool> seen(particles);
-  std::size_t written = 0;
-  for (std::size_t i = 0; i < rows; ++i) {
-    const std::int64_t to = original.empty() ? std::int64_t(i) : original[i];
-    if (to < 0) continue;
-    if (std::size_t(to) >= particles || seen[to])
-      throw std::invalid_argument(fmt::format("field {}: particle number {} out of place", field.name, to));
-    seen[to] = true;
-    ++written;
-    for (std::size_t c = 0; c < components; ++c) values[to * components + c] = field.components[c][i];
-  }
-  if (written != particles)
-    throw std::invalid_argument(
-        fmt::format("field {} covers {} of {} particles", field.name, written, particles));
-  return values;
-}
-
-/// All fields before the first is written: a misfit leaves nothing behind.
-std::vector<std::vector<double>> in_original_order(std::span<const Field> fields,
-                                                   std::span<const std::int32_t> original,
-                                                   std::size_t particles) {
-  std::vector<std::vector<double>> values;
-  for (const Field& f : fields) values.push_back(in_original_order(f, original, particles));
-  return values;
-}
 
 void write_fields(const H5::Group& group, std::span<const Field> fields,
                   const std::vector<std::vector<double>>& values) {
   for (std::size_t f = 0; f < fields.size(); ++f)
     write_dataset(group, fields[f].name, fields[f].unit, values[f], int(fields[f].components.size()));
-}
-
-/// One time of the ParaView collection. The points of a Polyvertex are numbered outright: ParaView's
-/// Xdmf3 readers show nothing without it.
-std::string xdmf_grid(const std::string& file, const std::string& group, double time, std::size_t particles,
-                      std::span<const Field> fields) {
-  const auto item = [&](const Field& f) {
-    const std::size_t components = f.components.size();
-    const auto size =
-        components > 1 ? fmt::format("{} {}", particles, components) : fmt::to_string(particles);
-    return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"Float\" Precision=\"8\" "
-                       "Format=\"HDF\">{}:{}/{}</DataItem>",
-                       size, file, group, f.name);
-  };
-  std::string text =
-      fmt::format("   <Grid Name=\"particles\">\n    <Time Value=\"{}\"/>\n"
-                  "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">"
-                  "<DataItem Dimensions=\"{}\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">"
-                  "{}:/particles/number</DataItem></Topology>\n",
-                  time, particles, particles, file);
-  for (const Field& f : fields) {
-    if (f.name == "position")
-      text += fmt::format("    <Geometry GeometryType=\"{}\">{}</Geometry>\n",
-                          f.components.size() == 2 ? "XY" : "XYZ", item(f));
-    else
-      text += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
-                          f.name,
-                          f.components.size() == 1   ? "Scalar"
-                          : f.components.size() <= 3 ? "Vector"
-                                                     : "Matrix",
-                          item(f));
-  }
-  return text + "   </Grid>\n";
 }
 
 } // namespace
@@ -173,21 +33,8 @@ struct ResultFile::Impl {
   int snapshots = 0;
   std::string xdmf_grids;
 
-  /// Runs `write` and turns HDF5's exceptions into one line that names file and object.
-  template <class Write> void guarded(const std::string& what, const Write& write) const {
-    const QuietDestructors quiet;
-    try {
-      write();
-    } catch (const H5::Exception& e) {
-      std::error_code error;
-      const auto space = std::filesystem::space(path.parent_path().empty() ? "." : path.parent_path(), error);
-      const std::string free =
-          error ? "" : fmt::format("; {:.1f} MB free on its disk", double(space.available) / 1e6);
-      throw std::runtime_error(
-          fmt::format("{}: cannot write {} ({}{})", path.string(), what, e.getDetailMsg(), free));
-    } catch (const std::invalid_argument& e) {
-      throw std::runtime_error(fmt::format("{}: cannot write {} ({})", path.string(), what, e.what()));
-    }
+  void guarded(const std::string& what, const std::function<void()>& write) const {
+    guarded_write(path, what, write);
   }
 
   const H5::H5File& h5() const {
@@ -196,19 +43,6 @@ struct ResultFile::Impl {
   }
 
   void flush() const { h5().flush(H5F_SCOPE_GLOBAL); }
-
-  /// Written beside and renamed, so that a reader never meets half a file.
-  void write_xdmf(const std::filesystem::path& to) const {
-    const std::filesystem::path part = to.string() + ".part";
-    std::ofstream out(part);
-    out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n <Domain>\n"
-           "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n"
-        << xdmf_grids << "  </Grid>\n </Domain>\n</Xdmf>\n";
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(part, to, error);
-    if (!out || error) throw std::runtime_error(fmt::format("{}: cannot write the XDMF file", to.string()));
-  }
 };
 
 ResultFile::ResultFile(const std::filesystem::path& path, const ResultHeader& header,
@@ -248,7 +82,7 @@ ResultFile::ResultFile(const std::filesystem::path& path, const ResultHeader& he
     }
     impl->flush();
   });
-  impl->write_xdmf(xdmf_path());
+  write_xdmf(xdmf_path(), impl->xdmf_grids);
 }
 
 ResultFile::~ResultFile() {
@@ -290,7 +124,7 @@ void ResultFile::snapshot(double time, std::span<const Field> fields, std::span<
   });
   ++impl->snapshots;
   impl->xdmf_grids += xdmf_grid(impl->path.filename().string(), name, time, impl->particles, fields);
-  impl->write_xdmf(xdmf_path());
+  write_xdmf(xdmf_path(), impl->xdmf_grids);
 }
 
 void ResultFile::sample(std::span<const double> row) {

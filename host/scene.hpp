@@ -45,7 +45,6 @@ struct Numerics {
   double stress_diffusion = 5;   ///< in smoothing lengths squared per unit strain
   double step_factor = 0.4;      ///< step = factor * h / (wave speed + flow speed)
   double skin = 0.4;             ///< of the neighbour lists, in spacings
-  int wave_speed_interval = 10;  ///< steps between two evaluations of the wave speed
 };
 
 struct Scene {

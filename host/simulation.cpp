@@ -38,20 +38,30 @@ template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
     show_all_motion(s);
 }
 
-/// Step from the current wave speed, refreshed every few steps.
+/// Step from the current wave speed. It shrinks at once and grows slowly: a deposit that opens up for a
+/// moment shows no wave, and stiffens again within a few steps.
 template <class Geometry> void choose_step(Simulation<Geometry>& s) {
-  if (s.steps % s.scene.numerics.wave_speed_interval != 0) return;
+  constexpr double growth = 1.02, smallest = 1e-4; // of the step before; of the first step
   update_wave_speed(s.particles, s.scene.material, s.blocks);
   double fastest = 0;
+  int at = 0;
   for (int i = 0; i < s.particles.count; ++i) {
     double square = 0;
     for (const auto& v : s.particles.velocity) square += v[i] * v[i];
-    fastest = std::max(fastest, s.particles.wave_speed[i] + std::sqrt(square));
+    const double speed = s.particles.wave_speed[i] + std::sqrt(square);
+    if (speed <= fastest) continue; // false for what is not a number
+    fastest = speed;
+    at = i;
   }
-  s.dt = s.scene.numerics.step_factor * s.kernel.h / fastest;
-  if (!(s.dt > 0) || !std::isfinite(s.dt))
-    throw std::runtime_error(
-        fmt::format("no step size at time {:.9g} s: the fastest wave is {} m/s", s.time, fastest));
+  const double wanted = s.scene.numerics.step_factor * s.kernel.h / fastest;
+  s.dt = s.steps == 0 ? wanted : std::min(wanted, growth * s.dt);
+  if (s.steps == 0) s.first_dt = s.dt;
+  if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt))
+    throw std::runtime_error(fmt::format(
+        "the motion became unstable at time {:.9g} s: the step fell to {:.3g} s (first: {:.3g} s), "
+        "particle {} at ({:.6g}, {:.6g}) m has wave and flow speeds of {:.3g} m/s together",
+        s.time, s.dt, s.first_dt, s.particles.id[at], s.particles.position[0][at],
+        s.particles.position[1][at], fastest));
 }
 
 template <class Geometry> void show_all_stress(Simulation<Geometry>& s) {
@@ -67,6 +77,10 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   s.particles = make_column<Geometry>(scene);
   s.mirrors = scene_mirrors(scene);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
+  s.blocks.failure_state = scene.failure_state;
+  // An increment without strain, so that the material's own initial state is there from the start.
+  constexpr double instant = 1e-12; // s
+  update_stress(s.particles, scene.material, {instant, instant, instant}, s.blocks);
   s.initial_potential_energy = potential_energy(s.particles, scene.gravity);
   return s;
 }

@@ -25,8 +25,8 @@ template <class Geometry> struct Simulation {
   Records<Geometry> records{};
   std::array<Array, Geometry::dimension> listed_position{};
 
-  double time = 0;              ///< s
-  double dt = 0, dt_before = 0; ///< s, this step and the last
+  double time = 0;                            ///< s
+  double dt = 0, dt_before = 0, first_dt = 0; ///< s: this step, the last, the first
   long steps = 0, rebuilds = 0;
   Work work{};
   double initial_potential_energy = 0;

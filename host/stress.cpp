@@ -15,11 +15,20 @@ struct StepStrain {
   double angle;
 };
 
-template <class Geometry> StepStrain step_strain(const Particles<Geometry>& p, int i, double dt) {
+/// Hoop strain rate v_r / r. Within a spacing of the axis it is d v_r / d r, which is the same where a flow is
+/// regular: there v_r / r turns each jitter of the innermost ring into strain, and its stress would grow
+/// to many times that of its neighbours during a collapse.
+template <class Geometry> double hoop_rate(const Particles<Geometry>& p, int i, double spacing) {
+  if (!Geometry::hoop) return 0;
+  return p.position[0][i] < spacing ? p.velocity_gradient[0][i] : p.velocity[0][i] / p.position[0][i];
+}
+
+template <class Geometry>
+StepStrain step_strain(const Particles<Geometry>& p, int i, double dt, double spacing) {
   const double shear = 0.5 * (p.velocity_gradient[1][i] + p.velocity_gradient[2][i]) * dt;
-  const double hoop = Geometry::hoop ? p.velocity[0][i] / p.position[0][i] * dt : 0.0;
-  return {{p.velocity_gradient[0][i] * dt, p.velocity_gradient[3][i] * dt, hoop, shear},
-          0.5 * (p.velocity_gradient[2][i] - p.velocity_gradient[1][i]) * dt};
+  return {
+      {p.velocity_gradient[0][i] * dt, p.velocity_gradient[3][i] * dt, hoop_rate(p, i, spacing) * dt, shear},
+      0.5 * (p.velocity_gradient[2][i] - p.velocity_gradient[1][i]) * dt};
 }
 
 /// In-plane tensor (11, 22, 33, 12) turned by `angle` from axis 1 to axis 2.
@@ -48,20 +57,23 @@ template <class Geometry> void pack(const Particles<Geometry>& p, int first, dou
   for (int s = 0; s < b.state_variables; ++s) std::copy_n(&p.state[s][first], n, &b.state_old[s * n]);
 }
 
-/// Index in the block of the first point whose answer is not finite; -1 if all are.
-int first_failure(const VumatBlock& b) {
+/// Index in the block of the first point whose answer is not finite or whose material reports a failure; -1 if
+/// there is none.
+int first_failure(const VumatBlock& b, int failure_state) {
   for (int k = 0; k < b.points; ++k) {
     double all = 0; // not finite if any of them is not
     for (std::size_t c = k; c < b.stress_new.size(); c += b.points) all += b.stress_new[c] * 0;
     for (std::size_t c = k; c < b.state_new.size(); c += b.points) all += b.state_new[c] * 0;
+    all += b.internal_energy_new[k] * 0 + b.inelastic_energy_new[k] * 0;
     if (!std::isfinite(all)) return k;
+    if (failure_state >= 0 && b.state_new[failure_state * b.points + k] < 0) return k;
   }
   return -1;
 }
 
-/// Keeps the lowest number of a particle whose answer is not finite; false if the block has none.
-bool note_failure(int first, const VumatBlock& b, std::atomic<int>& failed) {
-  const int k = first_failure(b);
+/// Keeps the lowest number of a particle whose update failed; false if the block has none.
+bool note_failure(int first, const VumatBlock& b, int failure_state, std::atomic<int>& failed) {
+  const int k = first_failure(b, failure_state);
   if (k < 0) return false;
   int lowest = failed;
   while (first + k < lowest && !failed.compare_exchange_weak(lowest, first + k)) {}
@@ -78,10 +90,11 @@ template <class F> void for_each_block(int count, StressBlocks& blocks, F&& f) {
 
 template <class Geometry>
 [[noreturn]] void report_failure(const Particles<Geometry>& p, const Material& material,
-                                 const Increment& increment, int i) {
-  const auto step = step_strain(p, i, increment.dt);
+                                 const Increment& increment, int i, double spacing) {
+  const auto step = step_strain(p, i, increment.dt, spacing);
   throw std::runtime_error(fmt::format(
-      "material {} returned a number that is not finite: particle {} at time {:.9g} s, position ({:.6g}, "
+      "material {} returned a number that is not finite or reported a failure: particle {} at time {:.9g} s, "
+      "position ({:.6g}, "
       "{:.6g}) m, "
       "stress before ({:.9g}, {:.9g}, {:.9g}, {:.9g}) Pa, strain increment ({:.6g}, {:.6g}, {:.6g}, {:.6g})",
       material.name, p.id[i], increment.total_time, p.position[0][i], p.position[1][i], p.stress[0][i],
@@ -111,7 +124,7 @@ void update_stress(Particles<Geometry>& p, const Material& material, const Incre
     pack(p, first, blocks.spacing, b);
     for (int k = 0; k < n; ++k) {
       const int i = first + k;
-      const auto step = step_strain(p, i, increment.dt);
+      const auto step = step_strain(p, i, increment.dt, blocks.spacing);
       const auto old_stress = turned(stress_of(p, i), step.angle);
       for (int c = 0; c < 4; ++c) {
         b.strain_increment[c * n + k] = step.strain[c];
@@ -122,13 +135,13 @@ void update_stress(Particles<Geometry>& p, const Material& material, const Incre
       b.density[k] = p.density[i];
     }
     call_vumat(material, increment, b);
-    if (note_failure(first, b, failed)) return;
+    if (note_failure(first, b, blocks.failure_state, failed)) return;
     for (int c = 0; c < 4; ++c) std::copy_n(&b.stress_new[c * n], n, &p.stress[c][first]);
     for (int s = 0; s < b.state_variables; ++s) std::copy_n(&b.state_new[s * n], n, &p.state[s][first]);
     std::copy_n(b.internal_energy_new.begin(), n, &p.internal_energy[first]);
     std::copy_n(b.inelastic_energy_new.begin(), n, &p.inelastic_energy[first]);
   });
-  if (failed < p.count) report_failure(p, material, increment, failed);
+  if (failed < p.count) report_failure(p, material, increment, failed, blocks.spacing);
 }
 
 template <class Geometry>
@@ -144,13 +157,13 @@ void update_wave_speed(Particles<Geometry>& p, const Material& material, StressB
         b.stress_old[c * n + k] = p.stress[c][first + k];
       }
     call_vumat(material, {0, 0, 1}, b);
-    if (note_failure(first, b, failed)) return;
+    if (note_failure(first, b, blocks.failure_state, failed)) return;
     for (int k = 0; k < n; ++k) {
       const double modulus = (b.stress_new[k] - b.stress_old[k]) / probe;
       p.wave_speed[first + k] = std::sqrt(std::max(modulus, 0.0) / p.density[first + k]);
     }
   });
-  if (failed < p.count) report_failure(p, material, Increment{0, 0, 1}, failed);
+  if (failed < p.count) report_failure(p, material, Increment{0, 0, 1}, failed, blocks.spacing);
 }
 
 double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm) {

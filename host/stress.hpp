@@ -11,6 +11,7 @@ namespace host {
 /// One block for each thread and one for the particles left over, allocated once.
 struct StressBlocks {
   static constexpr int points = 64; ///< per call, fixed: results may not depend on the threads
+  int failure_state = -1;           ///< position in STATEV that is negative after a failed update; -1: none
   double spacing = 0;               ///< m, the characteristic length of a particle
   std::vector<VumatBlock> full, tail;
 };

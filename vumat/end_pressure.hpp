@@ -3,16 +3,19 @@
 // multiplier in closed form from the yield condition; the volumetric strain (16) decides which y is right.
 #pragma once
 #include "vumat/functions.hpp"
-#include <limits>
 
 namespace simsand {
 
-inline constexpr int largest_iteration_count = 100;
+/// Most evaluations of (16): with bisection, and of Newton's rule alone.
+inline constexpr int largest_iteration_count = 100, largest_newton_count = 5;
 
 /// Tolerance on the residual relative to y, and what rounding leaves of the terms that it sums.
-template <class Real>
-inline constexpr Real tolerance = std::max(Real(1e-10), 8 * std::numeric_limits<Real>::epsilon());
-template <class Real> inline constexpr Real rounding = 4 * std::numeric_limits<Real>::epsilon();
+template <class T> inline constexpr T tolerance = std::max(T(1e-12), 8 * std::numeric_limits<T>::epsilon());
+template <class T> inline constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
+
+/// Change of ln p that the last step by series may make: its error in p and M is of the order of its square.
+template <class T>
+inline constexpr T largest_last_step = std::max(T(1e-7), 8 * std::numeric_limits<T>::epsilon());
 
 /// What does not change while the mean stress at the end of the substep is sought.
 template <class Real> struct Increment {
@@ -23,7 +26,7 @@ template <class Real> struct Increment {
   Real eps_d;                    ///< at the start
   Real q_start;                  ///< of the deviator at the start
   Real stress_work, strain_norm; ///< s:de and de:de of the deviators
-  Real sin3theta;                ///< of the elastic trial
+  Real sin3theta;                ///< of the deviator at the end
   Slopes<Real> slopes_start;
 };
 
@@ -42,57 +45,121 @@ template <class Real> struct Candidate {
 
 /// Mean of p^n over a substep (13): trapezoidal in y, exact for n = 1/2.
 template <class Real> Real mean_stiffness(const Pressure<Real>& a, const Pressure<Real>& b) {
-  return (a.stiffness + b.stiffness) / 2;
+  return (a.stiffness + b.stiffness) * Real(0.5);
 }
 
 /// Relative error of that mean, to leading order and no smaller for n > 1/3.
 template <class Real>
-Real mean_stiffness_error(const Material<Real>& m, const Pressure<Real>& a, const Pressure<Real>& b) {
+Real mean_stiffness_error(const MaterialOf<Real>& m, const Pressure<Real>& a, const Pressure<Real>& b) {
   const Real change = (b.stiffness - a.stiffness) / (b.stiffness + a.stiffness);
   return std::abs(2 * m.given.n - 1) * change * change;
 }
 
 template <class Real>
-Real mean_shear_modulus(const Material<Real>& m, const Increment<Real>& in, const Pressure<Real>& end) {
+Real mean_shear_modulus(const MaterialOf<Real>& m, const Increment<Real>& in, const Pressure<Real>& end) {
   return m.shear_ratio * m.given.p_at * in.stiffening * mean_stiffness(in.start, end);
 }
 
 /// Non-negative x with q_trial - 3 G x = B (eps_d + x) / (k_p + eps_d + x); 0 inside the yield surface (15).
-template <class Real> Real plastic_multiplier(Real q_trial, Real G, Real B, Real k_p, Real eps_d) {
+template <class Real> Real plastic_multiplier(Real q_trial, Real G, Real B, Scalar<Real> k_p, Real eps_d) {
   const Real b = 3 * G * (k_p + eps_d) - q_trial + B, c = q_trial * (k_p + eps_d) - B * eps_d;
-  if (c <= 0) return 0;
-  const Real root = std::sqrt(b * b + 12 * G * c);
-  return b > 0 ? 2 * c / (b + root) : (root - b) / (6 * G);
+  const Real root = sqrt(max(b * b + 12 * G * c, Real(0)));
+  const Mask<Real> positive = b > 0;
+  const Real x = select(positive, 2 * c, root - b) / select(positive, b + root, 6 * G);
+  return select(c <= 0, Real(0), x);
 }
 
-/// All that follows from a pressure at the end of the substep.
+/// All that follows from a pressure at the end of the substep, and the slopes there.
 template <class Real>
-Candidate<Real> candidate(const Material<Real>& m, const Increment<Real>& in, const Pressure<Real>& end) {
+Candidate<Real> candidate(const MaterialOf<Real>& m, const Increment<Real>& in, const Pressure<Real>& end,
+                          const Slopes<Real>& at_end) {
   Candidate<Real> c;
   c.pressure = end;
-  c.slopes = slopes(m, in.e_end, end, in.sin3theta);
+  c.slopes = at_end;
   const Real G = c.shear_modulus = mean_shear_modulus(m, in, end);
-  c.q_trial =
-      std::sqrt(std::max(in.q_start * in.q_start + 6 * G * (in.stress_work + G * in.strain_norm), Real(0)));
+  c.q_trial = sqrt(max(in.q_start * in.q_start + 6 * G * (in.stress_work + G * in.strain_norm), Real(0)));
   c.multiplier = plastic_multiplier(c.q_trial, G, end.mean_stress * c.slopes.peak, m.given.k_p, in.eps_d);
   c.share = mobilised(m, in.eps_d + c.multiplier);
   c.mean_share = mean_mobilised(m, in.eps_d, c.multiplier);
   c.plastic_volumetric =
-      c.multiplier * dilatancy(m, (in.slopes_start.transformation + c.slopes.transformation) / 2,
-                               (in.slopes_start.peak + c.slopes.peak) / 2, c.mean_share);
+      c.multiplier * dilatancy(m, (in.slopes_start.transformation + c.slopes.transformation) * Real(0.5),
+                               (in.slopes_start.peak + c.slopes.peak) * Real(0.5), c.mean_share);
   c.residual = end.measure - in.start.measure - in.stiffening * (in.volumetric - c.plastic_volumetric);
   return c;
 }
 
-/// d residual / d y with the slopes M held.
 template <class Real>
-Real residual_slope(const Material<Real>& m, const Increment<Real>& in, const Candidate<Real>& c) {
-  const Real b = m.given.k_p + in.eps_d + c.multiplier;
-  const Real hardening = c.pressure.mean_stress * c.slopes.peak * m.given.k_p / (b * b);
-  const Real dx_dp = -c.slopes.peak * c.share / (3 * c.shear_modulus + hardening);
-  const Real D = dilatancy(m, c.slopes.transformation, c.slopes.peak, c.share);
-  const Real slope = 1 + in.stiffening * D * dx_dp * m.given.p_at * c.pressure.stiffness;
-  return std::max(slope, Real(0.1));
+Candidate<Real> candidate(const MaterialOf<Real>& m, const Increment<Real>& in, const Pressure<Real>& end) {
+  return candidate(m, in, end, slopes(m, in.e_end, end, in.sin3theta));
+}
+
+/// d residual / d y.
+template <class Real>
+Real residual_slope(const MaterialOf<Real>& m, const Increment<Real>& in, const Candidate<Real>& c) {
+  const Real p = c.pressure.mean_stress, G = c.shear_modulus, M_p = c.slopes.peak,
+             M_pt = c.slopes.transformation;
+  const Real b = 1 / (m.given.k_p + in.eps_d + c.multiplier);
+  const Real hardening = p * M_p * m.given.k_p * b * b;
+  const Real p_dM_p = m.given.n_p * M_p * c.slopes.peak_rate * c.slopes.density_change;
+  const Real p_dM_pt = -m.given.n_d * M_pt * c.slopes.transformation_rate * c.slopes.density_change;
+  // p dG / dp times dq/dG of the trial less 3x: what a stiffer point gains of q.
+  const Real p_dG =
+      Real(0.5) * m.given.n * m.shear_ratio * m.given.p_at * in.stiffening * c.pressure.stiffness;
+  const Real dq_dG =
+      3 * (in.stress_work + 2 * G * in.strain_norm) / max(c.q_trial, Real(tiny<Scalar<Real>>)) -
+      3 * c.multiplier;
+  const Real p_dx = (p_dG * dq_dG - p * (M_p + p_dM_p) * c.share) / (3 * G + hardening);
+  const Real D = dilatancy(m, (in.slopes_start.transformation + M_pt) * Real(0.5),
+                           (in.slopes_start.peak + M_p) * Real(0.5), c.share);
+  const Real p_dD = Real(0.5) * m.given.A_d * (p_dM_pt - p_dM_p * c.mean_share);
+  const Real y_dy = m.given.p_at * c.pressure.stiffness / max(p, Real(tiny<Scalar<Real>>));
+  const Real slope =
+      1 + select(c.multiplier > 0, in.stiffening * (D * p_dx + c.multiplier * p_dD) * y_dy, Real(0));
+  return max(slope, Real(0.1));
+}
+
+/// Largest multiplier, that of a vanishing stress at the end.
+template <class Real> Real largest_multiplier(const MaterialOf<Real>& m, const Increment<Real>& in) {
+  const Real G_least =
+      (1 - m.given.n) / 2 * m.shear_ratio * m.given.p_at * in.stiffening * in.start.stiffness;
+  return sqrt(Real(2. / 3) * in.strain_norm) + in.q_start / (3 * G_least);
+}
+
+/// Whether a candidate solves (16).
+template <class Real>
+Mask<Real> solved(const MaterialOf<Real>& m, const Increment<Real>& in, const Candidate<Real>& c,
+                  Real x_most) {
+  const Real terms = in.start.measure + in.stiffening * (abs(in.volumetric) + m.given.A_d * x_most);
+  return abs(c.residual) <=
+         tolerance<Scalar<Real>> * (c.pressure.measure + m.floor_measure) + rounding<Scalar<Real>> * terms;
+}
+
+/// A step of Newton's rule, with p and M by series from where they are.
+template <class Real>
+Candidate<Real> nearby(const MaterialOf<Real>& m, const Increment<Real>& in, const Candidate<Real>& c) {
+  const auto end = shifted(m, c.pressure, -c.residual / residual_slope(m, in, c));
+  return candidate(m, in, end, shifted(m, c.slopes, end.log_ratio - c.pressure.log_ratio));
+}
+
+/// Newton's rule from a first candidate, of each lane until it is solved. Steps by series find the neighbourhood
+/// of the answer; a full evaluation there is corrected by a last one, too short for an error. Lanes that
+/// this leaves unsolved, or that head for y = 0, are for shorter steps.
+template <class Real>
+Candidate<Real> newton(const MaterialOf<Real>& m, const Increment<Real>& in, Candidate<Real> c,
+                       const Mask<Real>& ignored, Mask<Real>& converged) {
+  const Real x_most = largest_multiplier(m, in);
+  for (int i = 0; i < 2; ++i) c = nearby(m, in, c);
+  converged = c.residual < c.residual;
+  Real y = c.pressure.measure;
+  for (int i = 0;; ++i) {
+    c = candidate(m, in, pressure_of_measure(m, max(y, Real(0))));
+    const auto next = nearby(m, in, c);
+    const Real change = abs(next.pressure.log_ratio - c.pressure.log_ratio);
+    const Mask<Real> found = solved(m, in, next, x_most) & (change <= largest_last_step<Scalar<Real>>);
+    converged = converged | found;
+    if (i == largest_newton_count || all(converged | ignored)) return next;
+    y = select(converged, y, next.pressure.measure);
+  }
 }
 
 /// Solves residual(y) = 0 from a first candidate: Newton, then secants, kept inside a bracket by bisection.
@@ -100,22 +167,15 @@ Real residual_slope(const Material<Real>& m, const Increment<Real>& in, const Ca
 template <class Real>
 Candidate<Real> solve(const Material<Real>& m, const Increment<Real>& in, Candidate<Real> c,
                       bool& converged) {
-  // No y above `high`: the largest multiplier is that of a vanishing end stress, no dilatancy exceeds 3 A_d.
-  const Real G_least =
-      (1 - m.given.n) / 2 * m.shear_ratio * m.given.p_at * in.stiffening * in.start.stiffness;
-  const Real x_most = std::sqrt(Real(2) / 3 * in.strain_norm) + in.q_start / (3 * G_least);
-  const Real terms = in.start.measure + in.stiffening * (std::abs(in.volumetric) + m.given.A_d * x_most);
-  const auto small = [&](const Candidate<Real>& x) {
-    return std::abs(x.residual) <=
-           tolerance<Real> * (x.pressure.measure + m.floor_measure) + rounding<Real> * terms;
-  };
+  // No y above `high`: no dilatancy exceeds 3 A_d.
+  const Real x_most = largest_multiplier(m, in);
   Real low = 0, high = in.start.measure +
                        in.stiffening * (std::max(in.volumetric, Real(0)) + 3 * m.given.A_d * x_most);
   bool low_known = false, stalled = false;
   Real slope = residual_slope(m, in, c);
   for (int i = 0; i < largest_iteration_count; ++i) {
     const Real y = c.pressure.measure;
-    if (small(c) || (y == 0 && c.residual > 0)) return c;
+    if (solved(m, in, c, x_most) || (y == 0 && c.residual > 0)) return c;
     if (c.residual > 0) {
       high = y;
     } else {
@@ -134,7 +194,7 @@ Candidate<Real> solve(const Material<Real>& m, const Increment<Real>& in, Candid
     slope = secant > 0 ? secant : residual_slope(m, in, d);
     c = d;
   }
-  converged = small(c);
+  converged = solved(m, in, c, x_most);
   return c;
 }
 

@@ -2,23 +2,16 @@
 // The stress update: EQUATIONS.md, section "Update". One substep is a scalar problem in the measure y of the
 // mean stress at its end; the yield condition gives the multiplier of each y in closed form.
 #include "vumat/simsand.hpp"
-#include "vumat/end_pressure.hpp"
+#include "vumat/substep.hpp"
 
 namespace simsand {
 namespace {
 
-/// Accepted error of a substep relative to the mean stress, of the first-order companion of the update.
-constexpr double substep_tolerance = 0.05;
-/// Substeps are counted in ticks; an increment is so many, the smallest substep is one.
-constexpr int ticks_per_increment = 1024;
 /// Contraction alone may empty a point of its stress only in substeps as short as this.
 constexpr int ticks_of_collapse = ticks_per_increment / 16;
 
-template <class Real, int N> struct Substep {
-  Point<Real, N> point;
-  Real dissipation = 0;
-  Real error = 0;
-  bool plastic = false, nonconvex = false;
+/// A substep of one point, and what may refuse it.
+template <class Real, int N> struct Attempt : Substep<Real, N> {
   bool converged = true;
   bool collapsed = false; ///< p reached 0 by contraction, not by extension
 };
@@ -34,85 +27,41 @@ template <class Real> Real strain_to_zero_pressure(const Material<Real>& m, Real
   return d;
 }
 
+/// The end of a point that lost its stress.
+template <class Real, int N>
+Substep<Real, N> parted_end(const Material<Real>& m, const Increment<Real>& in, const Candidate<Real>& end) {
+  const Real beyond =
+      end.plastic_volumetric - in.volumetric - strain_to_zero_pressure(m, in.e_start, in.start.measure);
+  const Real gap = std::max(beyond, tiny<Real>);
+  return {
+      {{}, in.e_end, in.eps_d + end.multiplier, gap}, plastic_work(in, end), 0, end.multiplier > 0, false};
+}
+
 /// One substep of a point that carries stress or is about to.
 template <class Real, int N>
-Substep<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>& old,
+Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>& old,
                                   const SymmetricTensor<Real, N>& strain) {
-  const Real p_old = trace(old.stress) / 3;
-  const auto s_old = scale(p_old > 0 ? Real(1) : Real(0), deviator(old.stress)); // none outlives p = 0
-  const auto e_dev = deviator(strain);
-  Increment<Real> in;
-  in.start = pressure_of_mean_stress(m, p_old);
-  in.volumetric = trace(strain);
-  in.e_start = old.void_ratio;
-  const Real e_middle = void_ratio_after(old.void_ratio, in.volumetric / 2);
-  in.e_end = void_ratio_after(e_middle, in.volumetric / 2);
-  in.stiffening = m.given.K0 * mean_void_ratio_factor(e_middle, in.volumetric);
-  in.eps_d = old.plastic_strain;
-  in.q_start = deviatoric_stress(s_old);
-  in.stress_work = contract(s_old, e_dev);
-  in.strain_norm = contract(e_dev, e_dev);
-
-  const Real y_trial = in.start.measure + in.stiffening * in.volumetric;
-  const auto trial = pressure_of_measure(m, std::max(y_trial, Real(0)));
-  const auto s_trial = add(s_old, 2 * mean_shear_modulus(m, in, trial), e_dev);
-  const Real q_trial = deviatoric_stress(s_trial);
-  in.sin3theta = sin_3theta(s_trial, q_trial);
-
-  Substep<Real, N> out;
-  out.point.void_ratio = in.e_end;
-  out.error = mean_stiffness_error(m, in.start, trial);
-  const Real M_trial = peak_slope(m, denseness(m, in.e_end, trial), in.sin3theta).value;
-  const Real f_trial = yield_function(q_trial, trial.mean_stress, M_trial, mobilised(m, in.eps_d));
-  if (y_trial > 0 && f_trial <= rounding<Real> * trial.mean_stress) {
-    out.point.stress = add_mean(s_trial, trial.mean_stress);
-    out.point.plastic_strain = in.eps_d;
-    return out;
-  }
-  in.slopes_start = slopes(m, in.e_start, in.start, in.sin3theta);
-  const auto end = solve(m, in, candidate(m, in, trial), out.converged);
-  const Real p = end.pressure.mean_stress, x = end.multiplier;
-  out.plastic = x > 0;
-  out.nonconvex = out.plastic && !end.slopes.convex;
-  out.point.plastic_strain = in.eps_d + x;
-  // On the yield surface all along: p (q/p + dilatancy), at mean values.
-  out.dissipation = std::max(
-      (in.start.mean_stress + p) / 2 *
-          (x * (in.slopes_start.peak + end.slopes.peak) / 2 * end.mean_share + end.plastic_volumetric),
-      Real(0));
-  if (end.pressure.measure == 0) {
-    const Real beyond =
-        end.plastic_volumetric - in.volumetric - strain_to_zero_pressure(m, old.void_ratio, in.start.measure);
-    out.point.separation_strain = std::max(beyond, std::numeric_limits<Real>::min());
-    out.collapsed = y_trial > 0;
-    return out;
-  }
-  const Real q = out.plastic ? p * end.slopes.peak * end.share : end.q_trial; // (8)
-  out.point.stress = add_mean(scale(q_trial > 0 ? q / q_trial : Real(0), s_trial), p);
-  // Turn of the deviator, of which a radial return takes the direction at its end (19).
-  if (x > 0 && in.q_start * q_trial > 0) {
-    const Real cosine = Real(1.5) * contract(s_old, s_trial) / (in.q_start * q_trial);
-    const Real sine = std::sqrt(std::max(1 - cosine * cosine, Real(0)));
-    out.error += sine / 4 * std::min(3 * end.shear_modulus * x / end.q_trial, Real(1));
-  }
-  out.error += in.stiffening * x * m.given.A_d *
-               (std::abs(end.slopes.transformation - in.slopes_start.transformation) +
-                std::abs(end.slopes.peak - in.slopes_start.peak)) /
-               (2 * (1 - m.given.n) * (end.pressure.measure + m.floor_measure));
+  auto trial = elastic_trial(m, old, strain);
+  if (trial.inside) return {elastic_end(m, trial)};
+  turn_deviator(m, trial);
+  Attempt<Real, N> out;
+  const auto end = solve(m, trial.in, candidate(m, trial.in, trial.pressure), out.converged);
+  const bool parted = end.pressure.measure == 0;
+  static_cast<Substep<Real, N>&>(out) =
+      parted ? parted_end<Real, N>(m, trial.in, end) : plastic_end(m, trial, end);
+  out.collapsed = parted && trial.measure > 0;
   return out;
 }
 
 /// One substep: separation takes its share of the strain first.
 template <class Real, int N>
-Substep<Real, N> substep(const Material<Real>& m, const Point<Real, N>& old,
+Attempt<Real, N> substep(const Material<Real>& m, const Point<Real, N>& old,
                          const SymmetricTensor<Real, N>& strain) {
   if (old.separation_strain <= 0) return stressed_substep(m, old, strain);
   const Real volumetric = trace(strain), left = volumetric - old.separation_strain;
-  if (left <= 0) {
-    Substep<Real, N> out;
-    out.point = {{}, void_ratio_after(old.void_ratio, volumetric), old.plastic_strain, -left};
-    return out;
-  }
+  if (left <= 0)
+    return {
+        {{{}, void_ratio_after(old.void_ratio, volumetric), old.plastic_strain, -left}, 0, 0, false, false}};
   const Point<Real, N> closed = {
       {}, void_ratio_after(old.void_ratio, old.separation_strain), old.plastic_strain, 0};
   return stressed_substep(m, closed, scale(left / volumetric, strain));

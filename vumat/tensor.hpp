@@ -2,9 +2,7 @@
 // Symmetric tensors of 6 components (11, 22, 33, 12, 23, 31) or, in plane strain and axisymmetry, of 4
 // (11, 22, 33, 12). Shear as tensor components.
 #pragma once
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "vumat/lanes.hpp"
 
 namespace simsand {
 
@@ -61,15 +59,15 @@ template <class Real, int N> Real determinant(const SymmetricTensor<Real, N>& a)
 
 /// q = sqrt(3/2 s:s)
 template <class Real, int N> Real deviatoric_stress(const SymmetricTensor<Real, N>& s) {
-  return std::sqrt(Real(1.5) * contract(s, s));
+  return sqrt(Real(1.5) * contract(s, s));
 }
 
 /// sin 3theta of a deviator s with invariant q, compression positive: -1 in triaxial compression, +1 in
 /// extension, 0 where q vanishes.
 template <class Real, int N> Real sin_3theta(const SymmetricTensor<Real, N>& s, Real q) {
-  const Real inverse = q > std::numeric_limits<Real>::min() ? 1 / q : Real(0);
+  const Real inverse = select(q > tiny<Scalar<Real>>, 1 / q, Real(0));
   const Real sine = Real(-13.5) * determinant(scale(inverse, s));
-  return std::min(std::max(sine, Real(-1)), Real(1));
+  return min(max(sine, Real(-1)), Real(1));
 }
 
 } // namespace simsand

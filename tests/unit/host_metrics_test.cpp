@@ -3,6 +3,7 @@
 #include "host/geometry.hpp"
 #include "host/lattice.hpp"
 #include "host/metrics.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace {
@@ -110,7 +111,7 @@ TEST(Metrics, FrontAndVolumeOfStraightLinesAreExact) {
   EXPECT_DOUBLE_EQ(outline_volume<PlaneStrain>(radii, slope), 8);
   EXPECT_DOUBLE_EQ(front_radius(radii, slope, 0.25), 3.75);
   EXPECT_DOUBLE_EQ(front_radius(radii, slope, 5), 0);
-  EXPECT_DOUBLE_EQ(front_radius(radii, level, 1), 4);
+  EXPECT_TRUE(std::isnan(front_radius(radii, level, 1))) << "past the last radius";
   EXPECT_DOUBLE_EQ(outline_height(slope), 4);
 }
 

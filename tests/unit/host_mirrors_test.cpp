@@ -172,15 +172,6 @@ TEST(Mirrors, BehindTheFloorTheWeightGoesOn) {
   EXPECT_NEAR(lone.stress(0).flux[0], x * (-1000 - 0.5 * more), 1e-12);
 }
 
-TEST(Mirrors, ANoSlipFloorMovesAgainstTheParticleAndContinuesShear) {
-  auto scene = column_scene(GateMotion::fixed);
-  scene.floor.no_slip = true;
-  const double x = 10 * spacing, y = 0.5 * spacing;
-  const Lone lone(scene, x, y);
-  expect_at(lone.motion(0), x, -y, -3, -4);
-  EXPECT_NEAR(lone.stress(0).flux[3], -x * 4000, 1e-12);
-}
-
 TEST(Mirrors, TheGateActsAboveItsEdge) {
   const auto scene = column_scene(GateMotion::lift);
   const double edge = 10 * spacing;

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pair forces: antisymmetric, adjoint to the velocity gradient, dissipative; diffusion of stress.
-#include "host/geometry.hpp"
-#include "host/simulation.hpp"
+#include "tests/unit/host_fixture.hpp"
 #include <gtest/gtest.h>
 #include <omp.h>
-#include <random>
 
 namespace {
 
 using namespace host;
-
-constexpr double spacing = 0.002; // m
+using namespace host_test;
 
 Scene scene_without_walls() {
   Scene scene;
@@ -26,31 +23,17 @@ template <class Geometry> Simulation<Geometry> cloud(int columns, int rows, std:
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> jitter(-0.3, 0.3);
   std::normal_distribution<double> normal;
-  const Scene scene = scene_without_walls();
-  Simulation<Geometry> s{.scene = scene, .kernel = Kernel<2>(scene.numerics.smoothing_length * spacing)};
+  auto s = empty_cloud<Geometry>(columns * rows, scene_without_walls());
   auto& p = s.particles;
-  p.resize(columns * rows, 0);
   for (int i = 0; i < p.count; ++i) {
-    p.id[i] = i;
-    p.position[0][i] = (20 + i % columns + jitter(random)) * spacing;
-    p.position[1][i] = (20 + i / columns + jitter(random)) * spacing;
+    put(p, i, {(20 + i % columns + jitter(random)) * spacing, (20 + i / columns + jitter(random)) * spacing});
     for (int a = 0; a < 2; ++a) p.velocity[a][i] = normal(random);
     for (int c = 0; c < 4; ++c) p.stress[c][i] = 1e3 * normal(random);
     p.density[i] = 1500 * (1 + jitter(random));
-    p.mass[i] = 1500 * spacing * spacing * Geometry::depth * Geometry::weight(p.position[0][i]);
     p.wave_speed[i] = 30 * (1 + jitter(random));
   }
-  sort_particles(p, spacing);
-  s.images = {{}, p.padded(), p.padded()};
-  s.records.motion.resize(p.padded());
-  s.records.stress.resize(p.padded());
+  arrange(s, spacing, s.kernel.support);
   return s;
-}
-
-template <class Geometry> void find_gradients(Simulation<Geometry>& s) {
-  show_motion(s.particles, s.records);
-  find_neighbours(s.particles, s.images, s.records, s.kernel.support, s.lists);
-  update_gradient(s.particles, s.kernel, s.lists, s.records);
 }
 
 template <class Geometry> void find_forces(Simulation<Geometry>& s) {

@@ -94,6 +94,19 @@ TEST(VumatUpdate, IsOfSecondOrderWhereTheDeviatorDoesNotTurn) {
   EXPECT_LT(std::abs(coarse), 1e-3 * exact);
 }
 
+TEST(VumatUpdate, ErrorOfATurningDeviatorFallsNearlyWithTheSquareOfTheStep) {
+  const auto m = material(SS);
+  const Point6 start = half_mobilised(m, 2e3, 0.58);
+  const Tensor6 strain{{1e-4, -1e-4, 0, 4e-4, 0, -2e-4}};
+  const auto exact = runge_kutta(m, start, strain, 4000).stress;
+  const auto error = [&](int steps) {
+    return q_of(simsand::add(in_increments(m, start, strain, steps).stress, -1., exact));
+  };
+  EXPECT_GT(error(10) / error(20), 3);
+  EXPECT_GT(error(20) / error(40), 2.7);
+  EXPECT_LT(error(20), 1e-3 * q_of(exact));
+}
+
 TEST(VumatUpdate, EndsAtTheCriticalState) {
   const std::array slope_at_critical{0.7097, 0.9411, 1.0268}; // 6 sin phi / (3 - sin phi)
   for (int i = 0; i < 3; ++i)

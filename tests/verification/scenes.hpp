@@ -14,7 +14,8 @@ namespace tests {
 struct ColumnCase {
   std::string geometry = "axisymmetric", material = "TS";
   double void_ratio = 0.4451, aspect = 1, spacing = 0.002;
-  std::string gate = "motion = \"lift\"\nspeed = 1.6", friction = "0.5", numerics = "";
+  std::string gate = "motion = \"lift\"\nspeed = 1.6", friction = "0.5", numerics = "",
+              extra = ""; ///< extra: keys of the material
   double end_time = 1.5, rest_fraction = 1e-6;
 };
 
@@ -31,12 +32,12 @@ inline host::Scene column_scene(const ColumnCase& c, const std::string& name) {
   const auto path = folder + "/scene.toml";
   std::ofstream(path) << fmt::format(
       "[scene]\ngeometry = \"{}\"\nspacing = {}\ngravity = 9.81\n[column]\nradius = 0.05\nheight = {}\n"
-      "[material]\nfile = \"{}/data/materials/{}.toml\"\nvoid_ratio = {}\n[floor]\nfriction = "
+      "[material]\nfile = \"{}/data/materials/{}.toml\"\nvoid_ratio = {}\n{}\n[floor]\nfriction = "
       "{}\n[gate]\n{}\n"
       "[end]\ntime = {}\nkinetic_energy_fraction = {}\n[output]\nfolder = \"{}\"\nsample_interval = 0.005\n"
       "snapshot_interval = 0.5\ngrain_diameter = 0.00295\n[numerics]\n{}\n",
-      c.geometry, c.spacing, 0.05 * c.aspect, SIMSAND_SOURCE_DIR, c.material, c.void_ratio, c.friction,
-      c.gate, c.end_time, c.rest_fraction, folder, c.numerics);
+      c.geometry, c.spacing, 0.05 * c.aspect, SIMSAND_SOURCE_DIR, c.material, c.void_ratio, c.extra,
+      c.friction, c.gate, c.end_time, c.rest_fraction, folder, c.numerics);
   return drivers::read_scene(path);
 }
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The material at single points, called through the VUMAT interface, and measures of stress and strain.
+//
+// Sign: compression positive, turned once at the call. Components 11, 22, 33, 12, 23, 31; shear
+// strains are tensor components (half the engineering shear). Stress effective, Pa. Strain is the
+// sum of the increments given to the material (logarithmic for coaxial paths).
+#pragma once
+#include "host/vumat_block.hpp"
+#include <Eigen/Core>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace drivers {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// What a point carries from one increment to the next.
+struct PointState {
+  Vector6 stress = Vector6::Zero(), strain = Vector6::Zero();
+  std::vector<double> state;                        ///< STATEV
+  double internal_energy = 0, inelastic_energy = 0; ///< J/kg
+  double initial_density = 1;                       ///< kg/m3, at zero strain
+  double time = 0;                                  ///< s
+};
+
+double mean_stress(const Vector6& stress);       ///< p, Pa
+double deviatoric_stress(const Vector6& stress); ///< q = sqrt(3/2 s:s), Pa
+double volumetric_strain(const Vector6& strain);
+/// sqrt(2/3 e:e) of the deviatoric strain e.
+double deviatoric_strain(const Vector6& strain);
+/// Degrees, -30 in triaxial compression, +30 in extension; 0 where q vanishes.
+double lode_angle(const Vector6& stress);
+
+/// A material and the blocks it is called with, kept from call to call. One caller per thread.
+class MaterialCaller {
+public:
+  /// `failure_state`: position in STATEV, from 0, of a variable that is negative after a failed update.
+  explicit MaterialCaller(host::Material material, int failure_state = -1)
+      : material(std::move(material)), failure_state(failure_state) {}
+
+  /// Answers to one strain increment per point, in blocks as large as the convention allows. `from`
+  /// holds one state per increment, or a single one from which all increments start.
+  std::vector<PointState> respond(std::span<const PointState> from, std::span<const Vector6> increments,
+                                  double dt);
+  /// Stiffness d stress / d strain by the data check, Pa: elastic, whatever the loading direction.
+  Matrix6 elastic_stiffness(const PointState& from);
+
+  bool refused(const PointState& answer) const {
+    return failure_state >= 0 && answer.state[failure_state] < 0;
+  }
+
+  const host::Material material;
+  const int failure_state;
+  long points_called = 0;
+
+private:
+  host::VumatBlock& block(int points);
+  std::map<int, host::VumatBlock> blocks;
+};
+
+} // namespace drivers

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/hdf5_write.hpp"
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <sys/file.h>
+#include <system_error>
+
+namespace host {
+namespace {
+
+constexpr hsize_t rows_per_chunk = 16384; ///< 128 KiB per component, within HDF5's chunk cache
+
+} // namespace
+
+void guarded_write(const std::filesystem::path& path, const std::string& what,
+                   const std::function<void()>& write) {
+  const QuietDestructors quiet;
+  try {
+    write();
+  } catch (const H5::Exception& e) {
+    std::error_code error;
+    const auto space = std::filesystem::space(path.parent_path().empty() ? "." : path.parent_path(), error);
+    const std::string free =
+        error ? "" : fmt::format("; {:.1f} MB free on its disk", double(space.available) / 1e6);
+    throw std::runtime_error(
+        fmt::format("{}: cannot write {} ({}{})", path.string(), what, e.getDetailMsg(), free));
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error(fmt::format("{}: cannot write {} ({})", path.string(), what, e.what()));
+  }
+}
+
+void require_writable(const std::filesystem::path& path) {
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  if (error)
+    throw std::runtime_error(fmt::format("{}: cannot create the output folder ({})",
+                                         path.parent_path().string(), error.message()));
+  std::FILE* file = std::fopen(path.c_str(), "ab");
+  if (!file)
+    throw std::runtime_error(fmt::format("{}: cannot create the result file ({})", path.string(),
+                                         std::generic_category().message(errno)));
+  // HDF5 empties the file before it looks for the lock of another run that is writing it.
+  const bool taken = flock(fileno(file), LOCK_EX | LOCK_NB) != 0;
+  std::fclose(file);
+  if (taken) throw std::runtime_error(fmt::format("{}: another run is writing this file", path.string()));
+}
+
+const H5::PredType& real() {
+  return H5::PredType::NATIVE_DOUBLE;
+}
+
+H5::StrType text_type(const std::string& text) {
+  H5::StrType type(H5::PredType::C_S1, std::max<std::size_t>(text.size(), 1));
+  type.setCset(H5T_CSET_UTF8);
+  return type;
+}
+
+void attribute(const H5::H5Object& object, const std::string& name, const std::string& text) {
+  const auto type = text_type(text);
+  object.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, text);
+}
+
+void attribute(const H5::H5Object& object, const std::string& name, int value) {
+  object.createAttribute(name, H5::PredType::NATIVE_INT, H5::DataSpace(H5S_SCALAR))
+      .write(H5::PredType::NATIVE_INT, &value);
+}
+
+void attribute(const H5::H5Object& object, const std::string& name, double value) {
+  object.createAttribute(name, real(), H5::DataSpace(H5S_SCALAR)).write(real(), &value);
+}
+
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values, int components) {
+  const hsize_t rows = values.size() / components, columns = components;
+  const hsize_t size[2] = {rows, columns}, chunk[2] = {std::clamp<hsize_t>(rows, 1, rows_per_chunk), columns};
+  const int rank = components > 1 ? 2 : 1;
+  H5::DSetCreatPropList properties;
+  properties.setChunk(rank, chunk);
+  properties.setShuffle();
+  properties.setDeflate(1);
+  const auto dataset = group.createDataSet(name, real(), H5::DataSpace(rank, size), properties);
+  attribute(dataset, "unit", unit);
+  if (!values.empty()) dataset.write(values.data(), real());
+}
+
+} // namespace host

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the result file asks of HDF5: errors in one line, attributes, datasets with a unit.
+#pragma once
+#include <H5Cpp.h>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace host {
+
+/// Keeps the destructors of HDF5's handles from printing when a full disk makes them fail: the error
+/// that led there has been thrown.
+class QuietDestructors {
+public:
+  QuietDestructors() : kept(std::cerr.rdbuf(nullptr)) {}
+  ~QuietDestructors() { std::cerr.rdbuf(kept); }
+  QuietDestructors(const QuietDestructors&) = delete;
+  QuietDestructors& operator=(const QuietDestructors&) = delete;
+
+private:
+  std::streambuf* kept;
+};
+
+/// Runs `write` and turns HDF5's exceptions, and std::invalid_argument, into one std::runtime_error that
+/// names the file and `what` was being written.
+void guarded_write(const std::filesystem::path& path, const std::string& what,
+                   const std::function<void()>& write);
+
+/// Makes folder and file writable or says why they are not: HDF5's own text does not.
+void require_writable(const std::filesystem::path& path);
+
+const H5::PredType& real();
+H5::StrType text_type(const std::string& text);
+
+void attribute(const H5::H5Object& object, const std::string& name, const std::string& text);
+void attribute(const H5::H5Object& object, const std::string& name, int value);
+void attribute(const H5::H5Object& object, const std::string& name, double value);
+
+/// A dataset of n rows, (n) or (n, components).
+void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values, int components = 1);
+
+} // namespace host

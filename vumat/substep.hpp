@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One substep of points that carry stress: EQUATIONS.md, section "Update". The same functions serve a point
+// and lanes of points.
+#pragma once
+#include "vumat/end_pressure.hpp"
+#include "vumat/simsand.hpp"
+
+namespace simsand {
+
+/// Accepted error of a substep (20).
+inline constexpr double substep_tolerance = 0.05;
+/// Substeps are counted in ticks; an increment is so many, the smallest substep is one.
+inline constexpr int ticks_per_increment = 1024;
+
+template <class Real, int N> struct Substep {
+  Point<Real, N> point;
+  Real dissipation, error;
+  Mask<Real> plastic, nonconvex;
+};
+
+/// The elastic trial of a substep, and where it turns the deviator to.
+template <class Real, int N> struct Trial {
+  Increment<Real> in;
+  SymmetricTensor<Real, N> s_old, s_trial; ///< deviators
+  Real measure;                            ///< y, not bounded
+  Pressure<Real> pressure;
+  Slopes<Real> slopes; ///< near enough for a first candidate
+  Real q, shear_modulus;
+  Mask<Real> inside;                  ///< the step is elastic
+  SymmetricTensor<Real, N> direction; ///< of the deviator at the end
+  Real q_direction, turn;             ///< invariant of `direction`; 2 (1 - cos psi)
+};
+
+template <class Real, int N>
+Increment<Real> increment(const MaterialOf<Real>& m, const Point<Real, N>& old, Real p_old, Real volumetric) {
+  Increment<Real> in;
+  in.start = pressure_of_mean_stress(m, p_old);
+  in.volumetric = volumetric;
+  in.e_start = old.void_ratio;
+  const Real e_middle = void_ratio_after(old.void_ratio, volumetric * Real(0.5));
+  in.e_end = void_ratio_after(e_middle, volumetric * Real(0.5));
+  in.stiffening = m.given.K0 * mean_void_ratio_factor(e_middle, volumetric);
+  in.eps_d = old.plastic_strain;
+  return in;
+}
+
+/// The elastic trial and whether it is the answer.
+template <class Real, int N>
+Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& old,
+                             const SymmetricTensor<Real, N>& strain) {
+  Trial<Real, N> t;
+  const Real p_old = trace(old.stress) / 3;
+  t.s_old = scale(select(p_old > 0, Real(1), Real(0)), deviator(old.stress)); // none outlives p = 0
+  const auto e_dev = deviator(strain);
+  Increment<Real>& in = t.in = increment(m, old, p_old, trace(strain));
+  in.q_start = deviatoric_stress(t.s_old);
+  in.stress_work = contract(t.s_old, e_dev);
+  in.strain_norm = contract(e_dev, e_dev);
+  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(t.s_old, in.q_start));
+
+  t.measure = in.start.measure + in.stiffening * in.volumetric;
+  t.pressure = pressure_of_measure(m, max(t.measure, Real(0)));
+  t.shear_modulus = mean_shear_modulus(m, in, t.pressure);
+  t.s_trial = add(t.s_old, 2 * t.shear_modulus, e_dev);
+  t.q = deviatoric_stress(t.s_trial);
+  in.sin3theta = sin_3theta(t.s_trial, t.q);
+  const Real share = mobilised(m, in.eps_d);
+  // Slopes by series from those of the start, unless their error could hide which side of the yield surface it is.
+  const Real p_ratio = t.pressure.log_ratio - in.start.log_ratio;
+  const Real denser =
+      in.slopes_start.density_change * p_ratio + 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
+  t.slopes = at_angle(denser_by(m, in.slopes_start, denser), in.sin3theta);
+  Real f = yield_function(t.q, t.pressure.mean_stress, t.slopes.peak, share); // (8)
+  const Real exponent = (m.given.n_p + 1) * abs(denser);
+  const Real doubt = t.pressure.mean_stress * (2 * exponent * (exponent + abs(p_ratio)) + Real(1e-9));
+  if (const Mask<Real> close = !(abs(f) > doubt); !all(!close)) {
+    const auto exact = slopes(m, in.e_end, t.pressure, in.sin3theta);
+    f = select(close, yield_function(t.q, t.pressure.mean_stress, exact.peak, share), f);
+  }
+  t.inside = (t.measure > 0) & (f <= rounding<Scalar<Real>> * t.pressure.mean_stress);
+  return t;
+}
+
+/// The flow direction at mid-step (19): where half of the plastic flow is along the deviator that reaches the yield
+/// surface and half along that at the end, the latter is parallel to s_trial - 3 G x / (2 q) s.
+template <class Real, int N> void turn_deviator(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  Increment<Real>& in = t.in;
+  const Real share = mobilised(m, in.eps_d);
+  const Real f_start = yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, share);
+  const Real f_trial = yield_function(t.q, t.pressure.mean_stress, t.slopes.peak, share);
+  const Real tiny_stress = tiny<Scalar<Real>>;
+  const Real elastic_part = min(max(-f_start / max(f_trial - f_start, tiny_stress), Real(0)), Real(1));
+  const auto s_yield = add(scale(1 - elastic_part, t.s_old), elastic_part, t.s_trial);
+  const Real q_yield = deviatoric_stress(s_yield);
+  const Real x =
+      plastic_multiplier(t.q, t.shear_modulus, t.pressure.mean_stress * t.slopes.peak, m.given.k_p, in.eps_d);
+  const Real back = min(Real(1.5) * t.shear_modulus * x / max(q_yield, tiny_stress), Real(1));
+  t.direction = add(t.s_trial, -back, s_yield);
+  t.q_direction = deviatoric_stress(t.direction);
+  in.sin3theta = sin_3theta(t.direction, t.q_direction);
+  t.slopes = at_angle(t.slopes, in.sin3theta);
+  const Real cosine = Real(1.5) * contract(s_yield, t.direction) / max(q_yield * t.q_direction, tiny_stress);
+  t.turn = max(2 * (1 - cosine), Real(0));
+}
+
+template <class Real, int N>
+Substep<Real, N> elastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t) {
+  Substep<Real, N> out;
+  out.point = {add_mean(t.s_trial, t.pressure.mean_stress), t.in.e_end, t.in.eps_d, 0};
+  out.dissipation = 0;
+  out.error = mean_stiffness_error(m, t.in.start, t.pressure);
+  out.plastic = out.nonconvex = out.error < 0;
+  return out;
+}
+
+/// Plastic work per volume, on the yield surface all along: p (q/p + dilatancy), at mean values.
+template <class Real> Real plastic_work(const Increment<Real>& in, const Candidate<Real>& end) {
+  const Real M = (in.slopes_start.peak + end.slopes.peak) * Real(0.5);
+  return max((in.start.mean_stress + end.pressure.mean_stress) * Real(0.5) *
+                 (end.multiplier * M * end.mean_share + end.plastic_volumetric),
+             Real(0));
+}
+
+/// The point at the end that `solve` or `newton` found, at positive mean stress.
+template <class Real, int N>
+Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t, const Candidate<Real>& end) {
+  const Increment<Real>& in = t.in;
+  const Real p = end.pressure.mean_stress, x = end.multiplier;
+  Substep<Real, N> out;
+  out.plastic = x > 0;
+  out.nonconvex = out.plastic & !end.slopes.convex;
+  const Real q = select(out.plastic, p * end.slopes.peak * end.share, end.q_trial); // (8)
+  const Real factor = select(t.q_direction > 0, q / max(t.q_direction, Real(tiny<Scalar<Real>>)), Real(0));
+  out.point = {add_mean(scale(factor, t.direction), p), in.e_end, in.eps_d + x, 0};
+  out.dissipation = plastic_work(in, end);
+  const Real plastic_share =
+      min(3 * end.shear_modulus * x / max(end.q_trial, Real(tiny<Scalar<Real>>)), Real(1));
+  const Real slope_change = abs(end.slopes.transformation - in.slopes_start.transformation) +
+                            abs(end.slopes.peak - in.slopes_start.peak);
+  out.error = mean_stiffness_error(m, in.start, t.pressure) +
+              plastic_share * t.turn * sqrt(t.turn) * Real(0.125) +
+              in.stiffening * x * m.given.A_d * slope_change /
+                  (2 * (1 - m.given.n) * (end.pressure.measure + m.floor_measure));
+  return out;
+}
+
+} // namespace simsand
