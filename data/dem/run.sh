@@ -68,10 +68,12 @@ triaxial() {
 }
 
 column() {
-  local aspect=$1 seed=$2 height kn end poured
+  local aspect=$1 seed=$2 height kn pouring_kn end poured
   height=$(awk "BEGIN { print 0.05 * $aspect }")
   # Soft, but the weight of the column presses the grains by less than 1e-3 d; deeper, stiffer.
   kn=${DEM_STIFFNESS:-$(awk "BEGIN { print 1e4 * ($aspect > 1 ? $aspect : 1) }")}
+  # Softer still while pouring, which takes the larger part of the time: 2.2 times fewer steps.
+  pouring_kn=$(awk "BEGIN { print $kn / 5 }")
   # Rest comes at 3 sqrt(h/g) in the laboratory, here 0.15 to 0.43 s; spheres roll on longer.
   end=${DEM_END:-$(awk "BEGIN { end = $aspect > 2 ? 1.0 : $aspect > 1 ? 0.8 : 0.6
                                 print end - ($spheres > 1 ? 0.2 : 0) }")}
@@ -79,7 +81,7 @@ column() {
   poured=$(awk "BEGIN { h = $height; h += h > 0.1 ? 0.05 * h : 0.005
                         print int($solid * 3.14159265 * 0.05^2 * h / 13.455e-9) }")
   stage packing "$python" "$here/packing.py" column "$shape" "$poured" "$seed" "$work/packing"
-  stage deposit lammps deposit.in grains "$work/packing" out "$work/deposit" kn "$kn" \
+  stage deposit lammps deposit.in grains "$work/packing" out "$work/deposit" kn "$pouring_kn" \
     pouring_friction "$pouring_friction" height "$height" settling_speed "$settling_speed"
   stage cut "$python" "$here/cut.py" "$spheres" "$height" "$work/deposit" "$work/cut"
   stage settle lammps settle.in grains "$work/cut" out "$work/start" kn "$kn"
