@@ -172,6 +172,9 @@ double abaqus_particle_count(const host::Scene& scene, double spacing) {
 }
 
 AbaqusModel make_abaqus_model(const host::Scene& scene, double spacing) {
+  // A deck of a cylinder holds the whole of it, whichever way the scene describes it.
+  if (scene.geometry == host::GeometryKind::three_dimensional && scene.sector != host::Sector::full)
+    throw std::runtime_error("an ABAQUS deck holds the whole column: expected sector = \"full\" in [scene]");
   AbaqusModel model;
   place_particles(scene, spacing, model);
   for (auto& layer : model.layers) layer.state = initial_state(scene, model, layer);

@@ -2,7 +2,6 @@
 #include "drivers/material_caller.hpp"
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace drivers {
@@ -23,25 +22,19 @@ double contraction(const Vector6& a, const Vector6& b) {
   return a.head<3>().dot(b.head<3>()) + 2 * a.tail<3>().dot(b.tail<3>());
 }
 
-/// Stretch of a motion without rotation: the exponential of the strain, which turns tension positive.
-Eigen::Matrix3d stretch(const Vector6& strain) {
-  if (strain.tail<3>().isZero(0)) return Eigen::Vector3d((-strain.head<3>()).array().exp()).asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(-tensor(strain));
-  const Eigen::Vector3d principal = solver.eigenvalues().array().exp();
-  return solver.eigenvectors() * principal.asDiagonal() * solver.eigenvectors().transpose();
+Vector6 components(const Eigen::Matrix3d& t) {
+  return (Vector6() << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)).finished();
 }
 
-/// Places of the non-symmetric order 11, 22, 33, 12, 23, 31, 21, 32, 13; the first six are also those
-/// of the symmetric one.
-constexpr std::array<std::array<int, 2>, 9> places{
-    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}, {1, 0}, {2, 1}, {0, 2}}};
+constexpr int shear = 3; // components
 
-void put_stretch(const Vector6& strain, int k, int points, std::vector<double>& u, std::vector<double>& f) {
-  const auto value = stretch(strain);
-  for (int c = 0; c < 9; ++c) {
-    f[c * points + k] = value(places[c][0], places[c][1]);
-    if (c < 6) u[c * points + k] = f[c * points + k];
-  }
+void put_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
+  const int n = b.points;
+  host::put_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
+  host::put_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
+  host::put_general(motion.gradient_old, k, n, shear, b.gradient_old);
+  host::put_general(motion.gradient_new, k, n, shear, b.gradient_new);
+  for (int s = 0; s < shear; ++s) b.spin_increment[s * n + k] = motion.spin[s];
 }
 
 void put(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
@@ -51,8 +44,6 @@ void put(const PointState& from, const Vector6& increment, int k, host::VumatBlo
     b.stress_old[c * n + k] = -from.stress[c];
   }
   for (int c = 0; c < b.state_variables; ++c) b.state_old[c * n + k] = from.state[c];
-  put_stretch(from.strain, k, n, b.stretch_old, b.gradient_old);
-  put_stretch(from.strain + increment, k, n, b.stretch_new, b.gradient_new);
   // The convention's density is that in the middle of the increment.
   b.density[k] = from.initial_density * std::exp(volumetric_strain(from.strain + 0.5 * increment));
   b.internal_energy_old[k] = from.internal_energy;
@@ -99,8 +90,21 @@ double lode_angle(const Vector6& stress) {
   return std::asin(std::clamp(-13.5 * third / (q * q * q), -1.0, 1.0)) * 180 / (3 * M_PI);
 }
 
+Vector6 stress_in_base_axes(const PointState& point) {
+  const host::Tensor rotation = host::rotation_of(point.gradient);
+  if (rotation.isIdentity(1e-15)) return point.stress;
+  return components(rotation * tensor(point.stress) * rotation.transpose());
+}
+
 host::VumatBlock& MaterialCaller::block(int points) {
-  return blocks.try_emplace(points, material, points, 3).first->second;
+  return blocks.try_emplace(points, material, points, shear).first->second;
+}
+
+void MaterialCaller::pack(const PointState& from, const Vector6& increment, int k,
+                          host::VumatBlock& b) const {
+  put(from, increment, k, b);
+  if (material.frame == host::Frame::green_naghdi)
+    put_motion(host::strained(from.gradient, -tensor(increment)), k, b);
 }
 
 std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from,
@@ -111,19 +115,36 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
   for (std::size_t first = 0; first < increments.size(); first += vumat::max_block) {
     const int n = int(std::min<std::size_t>(vumat::max_block, increments.size() - first));
     auto& b = block(n);
-    for (int k = 0; k < n; ++k) put(start(first + k), increments[first + k], k, b);
+    for (int k = 0; k < n; ++k) pack(start(first + k), increments[first + k], k, b);
     const double end = start(first).time + dt;
     host::call_vumat(material, {end, end, dt}, b);
-    for (int k = 0; k < n; ++k) answers.push_back(taken(start(first + k), increments[first + k], dt, k, b));
+    for (int k = 0; k < n; ++k) {
+      answers.push_back(taken(start(first + k), increments[first + k], dt, k, b));
+      if (material.frame == host::Frame::green_naghdi)
+        answers.back().gradient = host::general_at(b.gradient_new, k, n, shear);
+    }
     points_called += n;
   }
   return answers;
 }
 
+PointState MaterialCaller::follow(const PointState& from, const host::Kinematics& motion, double dt) {
+  host::VumatBlock b(material, 1, shear); // not one of those that show unity
+  const Vector6 increment = -components(motion.strain);
+  put(from, increment, 0, b);
+  put_motion(motion, 0, b);
+  const double end = from.time + dt;
+  host::call_vumat(material, {end, end, dt}, b);
+  ++points_called;
+  auto to = taken(from, increment, dt, 0, b);
+  to.gradient = motion.gradient_new;
+  return to;
+}
+
 Matrix6 MaterialCaller::elastic_stiffness(const PointState& from) {
   constexpr double probe = 1e-8; // small against the strain over which moduli change
   auto& b = block(6);
-  for (int k = 0; k < 6; ++k) put(from, probe * Vector6::Unit(k), k, b);
+  for (int k = 0; k < 6; ++k) pack(from, probe * Vector6::Unit(k), k, b);
   host::call_vumat(material, {0, 0, 1}, b);
   points_called += 6;
   Matrix6 stiffness;

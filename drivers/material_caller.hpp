@@ -4,6 +4,10 @@
 // Sign: compression positive, turned once at the call. Components 11, 22, 33, 12, 23, 31; shear
 // strains are tensor components (half the engineering shear). Stress effective, Pa. Strain is the
 // sum of the increments given to the material (logarithmic for coaxial paths).
+//
+// All of it is in the corotational frame, whose axes turn with R of F = R U. A point that is led by stress and
+// strain has no other axes: R stays, F moves by U alone (host/kinematics.hpp, strained). F and U are
+// followed for materials of Frame::green_naghdi, others are shown unity.
 #pragma once
 #include "host/vumat_block.hpp"
 #include <Eigen/Core>
@@ -23,6 +27,7 @@ struct PointState {
   double internal_energy = 0, inelastic_energy = 0; ///< J/kg
   double initial_density = 1;                       ///< kg/m3, at zero strain
   double time = 0;                                  ///< s
+  host::Tensor gradient = host::Tensor::Identity(); ///< F, base axes
 };
 
 double mean_stress(const Vector6& stress);       ///< p, Pa
@@ -32,6 +37,9 @@ double volumetric_strain(const Vector6& strain);
 double deviatoric_strain(const Vector6& strain);
 /// Degrees, -30 in triaxial compression, +30 in extension; 0 where q vanishes.
 double lode_angle(const Vector6& stress);
+
+/// Stress of a point in base axes, R stress R^T.
+Vector6 stress_in_base_axes(const PointState& point);
 
 /// A material and the blocks it is called with, kept from call to call. One caller per thread.
 class MaterialCaller {
@@ -44,6 +52,8 @@ public:
   /// holds one state per increment, or a single one from which all increments start.
   std::vector<PointState> respond(std::span<const PointState> from, std::span<const Vector6> increments,
                                   double dt);
+  /// Answer to a known motion from where the point is, whatever the material's frame.
+  PointState follow(const PointState& from, const host::Kinematics& motion, double dt);
   /// Stiffness d stress / d strain by the data check, Pa: elastic, whatever the loading direction.
   Matrix6 elastic_stiffness(const PointState& from);
 
@@ -57,6 +67,7 @@ public:
 
 private:
   host::VumatBlock& block(int points);
+  void pack(const PointState& from, const Vector6& increment, int k, host::VumatBlock& block) const;
   std::map<int, host::VumatBlock> blocks;
 };
 

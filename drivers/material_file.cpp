@@ -3,6 +3,7 @@
 #include "vumat/parameters.hpp"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace drivers {
@@ -87,6 +88,25 @@ void read_other(const Sources& sources, LoadedMaterial& out) {
     out.failure_state = int(failure.integer("failure_state", {1, double(states)})) - 1;
 }
 
+/// The bare name of a library that the build puts beside the program, which each program finds anew, or a path.
+std::string find_library(const TomlTable& source) {
+  const auto name = source.text("library");
+  const auto shipped = host::beside_program(name);
+  const bool bare = name.find('/') == std::string::npos;
+  return bare && std::filesystem::exists(shipped) ? shipped : source.path("library");
+}
+
+/// How the subroutine is to be called. One of which nothing is known gets all that ABAQUS would give it; SIMSAND
+/// is isotropic and looks at neither F nor U.
+void read_calling(const Sources& sources, bool is_simsand, host::Material& material) {
+  const auto frame =
+      sources.of("kinematics")
+          .text("kinematics", {"green-naghdi", "jaumann"}, is_simsand ? "jaumann" : "green-naghdi");
+  material.frame = frame == "jaumann" ? host::Frame::jaumann : host::Frame::green_naghdi;
+  material.serial = sources.of("serial").flag("serial", false);
+  material.may_write_inputs = sources.of("may_write_inputs").flag("may_write_inputs", false);
+}
+
 } // namespace
 
 LoadedMaterial read_material(const TomlTable& table, std::optional<double> void_ratio) {
@@ -99,13 +119,14 @@ LoadedMaterial read_material(const TomlTable& table, std::optional<double> void_
   const auto& named = sources.of("name");
   const auto& located = sources.of("library");
   out.material.name = is_simsand ? named.text("name", {}, "SIMSAND") : named.text("name");
-  // The shipped library is found anew by each program: it is no part of the resolved document.
   const auto library = is_simsand && !located.has("library") ? host::beside_program("libsimsand_vumat.so")
-                                                             : located.path("library");
+                                                             : find_library(located);
+  out.is_simsand = is_simsand;
   if (is_simsand)
     read_simsand(sources, out);
   else
     read_other(sources, out);
+  read_calling(sources, is_simsand, out.material);
   out.bulk_density = read_bulk_density(sources, out.void_ratio, is_simsand);
   out.material.state_variables = int(out.state_names.size());
   if (sources.file) {

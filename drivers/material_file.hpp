@@ -6,6 +6,7 @@
 // Another library: `library`, `name`, `properties = [...]`, `state_variables = n`, and optionally
 // `state_names = [...]`, `initial_state = [...]`, `failure_state` (number, from 1, of the state variable
 // that is negative after a failed update), and `density` or `grain_density`.
+// Any: `kinematics` ("green-naghdi" or "jaumann"), `serial`, `may_write_inputs` (host/VUMAT_HOST.md).
 #pragma once
 #include "drivers/toml_table.hpp"
 #include "host/vumat_block.hpp"
@@ -21,6 +22,7 @@ struct LoadedMaterial {
   std::vector<double> initial_state;    ///< STATEV before the first increment
   int failure_state = -1;               ///< position in STATEV, from 0; -1: there is none
   std::optional<double> void_ratio;     ///< initial
+  bool is_simsand = false;              ///< PROPS are those of simsand::parameters
   double bulk_density = 0;              ///< kg/m3, initial
 };
 

@@ -75,9 +75,11 @@ struct Increment {
     return -system.partialPivLu().solve(weight.cwiseProduct(from.residual));
   }
 
-  /// Broyden's update: the stiffness that explains the step from one trial to the next.
+  /// Broyden's update: the stiffness that explains the step from one trial to the next. A step that moves
+  /// stress by no more than round-off (an increment at rest) teaches nothing.
   void learn(const Trial& from, const Trial& to) const {
     const Vector6 step = to.increment - from.increment;
+    if (!(step.norm() * scale.modulus > allowed_stress(to.answer.stress))) return;
     const Vector6 surprise = to.answer.stress - from.answer.stress - stiffness * step;
     stiffness += surprise * step.transpose() / step.squaredNorm();
   }
@@ -139,7 +141,6 @@ struct Increment {
         continue;
       }
       fresh = current.error > 1 && !first && current.error > 0.1 * before && differentiate(current);
-      if (first && current.error > 1e4) fresh = differentiate(current);
     }
     return {start, false};
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 
 namespace drivers {
@@ -29,9 +30,18 @@ std::vector<double> as_row(const Sample& s) {
           s.work.wall, s.work.friction, s.internal, s.inelastic, s.imbalance, s.step_size};
 }
 
+Sample from_row(const std::vector<std::vector<double>>& columns, std::size_t row) {
+  const auto v = [&](std::size_t c) { return columns[c][row]; };
+  return {v(0), v(1), v(2), v(3), v(4), {v(5), v(6), v(7), v(8)}, v(9), v(10), v(11), v(12)};
+}
+
 /// Outline samples reach as far as grains of any deposit seen: three column heights past the column.
 double outline_reach(const host::Scene& scene) {
   return scene.column.radius + 3 * scene.column.height;
+}
+
+std::filesystem::path result_path(const host::Scene& scene) {
+  return std::filesystem::path(scene.output_folder) / "result.h5";
 }
 
 template <class Geometry> host::ResultHeader header_of(const host::Simulation<Geometry>& s) {
@@ -65,7 +75,7 @@ double total_of(const host::Array& per_mass, const host::Array& mass, int count)
 template <class Geometry>
 Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
     : abscissa(host::outline_radii(s.scene.spacing, outline_reach(s.scene))),
-      result(std::filesystem::path(s.scene.output_folder) / "result.h5", header_of(s), series_quantities) {
+      result(result_path(s.scene), header_of(s), series_quantities) {
   const auto& p = s.particles;
   const std::vector<host::Field> fields{{"mass", "kg", {view(p.mass, p.count)}},
                                         {"initial_position", "m", views(p.initial_position, p.count)}};
@@ -74,14 +84,34 @@ Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
   std::ofstream(std::filesystem::path(s.scene.output_folder) / "scene.toml") << s.scene.resolved;
 }
 
+template <class Geometry>
+Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s, const host::RunProgress& progress)
+    : abscissa(host::outline_radii(s.scene.spacing, outline_reach(s.scene))),
+      next_sample(progress.next_sample), next_snapshot(progress.next_snapshot),
+      last_snapshot(progress.last_snapshot),
+      result(result_path(s.scene), header_of(s), series_quantities, progress.result) {
+  if (progress.result.series.size() != series_quantities.size())
+    throw std::runtime_error(fmt::format("{}: its checkpoint has another time series", file()));
+  for (std::size_t row = 0; row < progress.result.series.front().size(); ++row)
+    series.push_back(from_row(progress.result.series, row));
+  if (progress.rest_time >= 0) rest_time = progress.rest_time;
+  result.outline_radii(abscissa);
+}
+
+template <class Geometry> host::RunProgress Recorder<Geometry>::progress() {
+  result.flush();
+  return {result.progress(), next_sample, next_snapshot, last_snapshot, rest_time.value_or(-1), 0};
+}
+
 template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation<Geometry>& s) {
   if (!series.empty() && series.back().time == s.time) return;
   const auto& p = s.particles;
-  heights = host::outline(p, s.kernel, abscissa);
+  const auto profiles = host::surface_profiles(p, s.kernel, abscissa, s.scene.sector);
+  heights = host::mean_profile(profiles);
   Sample now;
   now.time = s.time;
   now.height = host::outline_height(heights);
-  now.front = host::front_radius(abscissa, heights, s.scene.grain_diameter);
+  now.front = host::front_of(profiles, abscissa, s.scene.grain_diameter).mean;
   now.kinetic = host::kinetic_energy(p);
   now.potential = host::potential_energy(p, s.scene.gravity);
   now.work = s.work;
@@ -122,7 +152,7 @@ template <class Geometry> void Recorder<Geometry>::write_snapshot(const host::Si
                                   {"density", "kg/m3", {view(p.density, p.count)}}};
   for (std::size_t v = 0; v < p.state.size(); ++v)
     fields.push_back({"state_" + s.scene.state_names[v], "1", {view(p.state[v], p.count)}});
-  heights = host::outline(p, s.kernel, abscissa);
+  heights = host::outline(p, s.kernel, abscissa, s.scene.sector);
   result.snapshot(s.time, fields, std::span(p.id).first(p.count), heights);
 }
 
@@ -136,5 +166,6 @@ void Recorder<Geometry>::finish(const host::Simulation<Geometry>& s,
 
 template class Recorder<host::PlaneStrain>;
 template class Recorder<host::Axisymmetric>;
+template class Recorder<host::ThreeDimensional>;
 
 } // namespace drivers

@@ -2,9 +2,8 @@
 // Watches a run: samples its time series, writes snapshots to the result file, tells when it is at rest,
 // and reads the results off the final state.
 #pragma once
+#include "host/checkpoint.hpp"
 #include "host/metrics.hpp"
-#include "host/output.hpp"
-#include "host/simulation.hpp"
 #include <optional>
 
 namespace drivers {
@@ -22,6 +21,8 @@ struct Sample {
 template <class Geometry> class Recorder {
 public:
   explicit Recorder(const host::Simulation<Geometry>& simulation);
+  /// Continues the result of an interrupted run.
+  Recorder(const host::Simulation<Geometry>& simulation, const host::RunProgress& progress);
 
   /// Samples and writes what is due at the current time.
   void observe(const host::Simulation<Geometry>& simulation);
@@ -30,6 +31,8 @@ public:
   /// True once the energy is below the scene's fraction, the height stands still between two samples
   /// and the gate has cleared the column.
   bool at_rest() const { return rest_time.has_value(); }
+  /// What a checkpoint must hold of it (all but the wall clock); the result on disk is then as far.
+  host::RunProgress progress();
   /// Writes the summary and closes the file as complete.
   void finish(const host::Simulation<Geometry>& simulation,
               std::span<const std::pair<host::Quantity, double>> summary);

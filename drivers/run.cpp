@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/run.hpp"
+#include "drivers/checkpointer.hpp"
+#include "drivers/forecast.hpp"
+#include "drivers/interrupt.hpp"
 #include "drivers/laws.hpp"
 #include "drivers/recorder.hpp"
 #include "host/geometry.hpp"
+#include "host/guard.hpp"
+#include "host/vumat_utilities.hpp"
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <omp.h>
 #include <spdlog/spdlog.h>
@@ -18,24 +25,31 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A line every two seconds: simulated time, step size, rate, time left if the run goes to its latest end.
+/// A line every two seconds: simulated time, step size, rate, time left until the run is expected to be at
+/// rest (once that has passed: until its latest end).
 class Progress {
 public:
-  explicit Progress(bool quiet) : quiet(quiet) {}
+  template <class Geometry>
+  Progress(bool quiet, const host::Simulation<Geometry>& s, double seconds_before)
+      : quiet(quiet), before(seconds_before), first_time(s.time), first_step(s.steps) {}
 
   template <class Geometry> void report(const host::Simulation<Geometry>& s) {
     if (quiet || s.steps % 64 != 0 || seconds_since(last) < 2) return;
     last = Clock::now();
-    const double elapsed = seconds_since(start);
-    spdlog::info(
-        "t = {:.4f} s of at most {:.3g} s   step {:.2e} s   {:.3g} particle-steps/s   at most {:.0f} s left",
-        s.time, s.scene.end_time, s.dt, double(s.steps) * s.particles.count / elapsed,
-        (s.scene.end_time - s.time) / s.time * elapsed);
+    const double seconds = seconds_since(start), expected = expected_end(s.scene);
+    const bool late = s.time >= expected || expected == s.scene.end_time;
+    spdlog::info("t = {:.4f} s of {} {:.3g} s   step {:.2e} s   {:.3g} particle-steps/s   {} {:.0f} s left",
+                 s.time, late ? "at most" : "about", late ? s.scene.end_time : expected, s.dt,
+                 double(s.steps - first_step) * s.particles.count / seconds, late ? "at most" : "about",
+                 ((late ? s.scene.end_time : expected) - s.time) / (s.time - first_time) * seconds);
   }
-  double elapsed() const { return seconds_since(start); }
+  /// s of wall clock, all parts of the run.
+  double elapsed() const { return before + seconds_since(start); }
 
 private:
   bool quiet;
+  double before, first_time;
+  long first_step;
   Clock::time_point start = Clock::now(), last = start;
 };
 
@@ -44,7 +58,9 @@ Summary summarise(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
                   double wall_seconds) {
   const auto& p = s.particles;
   const double r0 = s.scene.column.radius, e0 = s.initial_potential_energy;
-  const auto heights = host::outline(p, s.kernel, recorder.radii());
+  const auto profiles = host::surface_profiles(p, s.kernel, recorder.radii(), s.scene.sector);
+  const auto heights = host::mean_profile(profiles);
+  const auto front = host::front_of(profiles, recorder.radii(), s.scene.grain_diameter);
   const Sample& last = recorder.samples().back();
   double worst = 0, solid_volume = 0;
   for (const Sample& sample : recorder.samples()) worst = std::max(worst, std::abs(sample.imbalance));
@@ -52,7 +68,7 @@ Summary summarise(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Summary summary{
       {{"final_height", "r0"}, host::outline_height(heights) / r0},
-      {{"runout", "r0"}, host::front_radius(recorder.radii(), heights, s.scene.grain_diameter) / r0 - 1},
+      {{"runout", "r0"}, front.mean / r0 - 1},
       {{"time_to_rest", "s"}, recorder.time_to_rest().value_or(nan)},
       {{"end_time", "s"}, s.time},
       {{"energy_imbalance", "initial potential energy"}, worst},
@@ -64,7 +80,7 @@ Summary summarise(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
       {{"material_stress_power", "initial potential energy"}, last.internal / e0},
       {{"material_dissipation", "initial potential energy"}, last.inelastic / e0},
       {{"outline_over_particle_volume", "1"},
-       host::outline_volume<Geometry>(recorder.radii(), heights) / solid_volume},
+       host::outline_volume<Geometry>(recorder.radii(), heights, s.scene.sector) / solid_volume},
       {{"held_at_walls", "particle-steps"}, double(s.work.guarded)},
       {{"particles", "1"}, double(p.count)},
       {{"steps", "1"}, double(s.steps)},
@@ -72,7 +88,10 @@ Summary summarise(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
       {{"wall_clock", "s"}, wall_seconds},
       {{"rate", "particle-steps/s"}, double(s.steps) * p.count / wall_seconds},
       {{"threads", "1"}, double(omp_get_max_threads())},
+      {{"memory_per_particle", "B"}, double(host::memory_of(s).data) / p.count},
   };
+  if (Geometry::dimension == 3)
+    summary.push_back({{"runout_scatter_over_azimuth", "r0"}, front.scatter / r0});
   for (std::size_t v = 0; v < s.scene.state_names.size(); ++v)
     if (s.scene.state_names[v] == "void_ratio") {
       constexpr double carries_stress = 20; // Pa
@@ -112,36 +131,93 @@ void print_table(const host::Scene& scene, const Summary& summary, const std::st
   fmt::print("\nresults: {}\n", file);
 }
 
-template <class Geometry> Summary run(const host::Scene& scene, const RunOptions& options) {
-  auto simulation = host::start_simulation<Geometry>(scene);
-  Recorder<Geometry> recorder(simulation);
-  if (!options.quiet)
-    spdlog::info("{} particles of {:.4g} mm, {}, {} threads", simulation.particles.count, 1e3 * scene.spacing,
-                 Geometry::name, omp_get_max_threads());
-  Progress progress(options.quiet);
+/// Ends a run whose latest sample shows energy from nowhere.
+template <class Geometry>
+void check_latest(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
+  const Sample& last = recorder.samples().back();
+  if (last.time != s.time || s.initial_potential_energy <= 0) return;
+  const double e0 = s.initial_potential_energy;
+  const double made = last.kinetic + last.potential - e0 - std::max(last.work.wall, 0.0);
+  host::check_energy(s.particles, s.time, made / e0, last.imbalance);
+}
+
+/// The loop of steps, until rest, the latest end or a request to stop.
+template <class Geometry>
+void advance(host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorder, Progress& progress) {
+  Checkpointer<Geometry> checkpointer(simulation.scene);
   recorder.observe(simulation);
-  try {
-    while (simulation.time < scene.end_time && !recorder.at_rest()) {
-      host::step(simulation);
-      recorder.observe(simulation);
-      progress.report(simulation);
+  while (simulation.time < simulation.scene.end_time && !recorder.at_rest()) {
+    if (const int signal = stop_requested()) {
+      checkpointer.write(simulation, recorder, progress.elapsed());
+      throw Interrupted(fmt::format("stopped by {} at {:.6g} s; to go on: simsand run --resume {}",
+                                    strsignal(signal), simulation.time, simulation.scene.output_folder),
+                        signal);
     }
-  } catch (...) {
-    recorder.write_snapshot(simulation);
-    throw;
+    host::step(simulation);
+    recorder.observe(simulation);
+    check_latest(simulation, recorder);
+    if (checkpointer.due()) checkpointer.write(simulation, recorder, progress.elapsed());
+    progress.report(simulation);
   }
+}
+
+/// The last state of a run that fails; the failure itself is what to report.
+template <class Geometry>
+void keep_last_state(const host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorder) {
+  try {
+    recorder.write_snapshot(simulation);
+  } catch (const std::exception&) {}
+}
+
+template <class Geometry>
+Summary finish(host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorder, Progress& progress) {
   recorder.write_snapshot(simulation);
   const Summary summary = summarise(simulation, recorder, progress.elapsed());
   recorder.finish(simulation, summary);
-  print_table(scene, summary, recorder.file());
+  remove_checkpoints(simulation.scene.output_folder);
+  print_table(simulation.scene, summary, recorder.file());
   return summary;
+}
+
+template <class Geometry>
+Summary run_on(host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorder, Progress progress,
+               bool quiet) {
+  if (!quiet)
+    spdlog::info("{} particles of {:.4g} mm, {}, {} threads", simulation.particles.count,
+                 1e3 * simulation.scene.spacing, Geometry::name, omp_get_max_threads());
+  try {
+    advance(simulation, recorder, progress);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (...) {
+    keep_last_state(simulation, recorder);
+    throw;
+  }
+  return finish(simulation, recorder, progress);
+}
+
+template <class Geometry> Summary run(const host::Scene& scene, const RunOptions& options) {
+  auto simulation = host::start_simulation<Geometry>(scene);
+  if (options.checkpoint.empty()) {
+    Recorder<Geometry> recorder(simulation);
+    if (remove_checkpoints(scene.output_folder) && !options.quiet)
+      spdlog::warn("{} held an unfinished run: it is replaced", scene.output_folder);
+    return run_on(simulation, recorder, Progress(options.quiet, simulation, 0), options.quiet);
+  }
+  const auto done = host::read_checkpoint(options.checkpoint, simulation);
+  Recorder<Geometry> recorder(simulation, done);
+  if (!options.quiet) spdlog::info("going on from {:.6g} s", simulation.time);
+  return run_on(simulation, recorder, Progress(options.quiet, simulation, done.wall_seconds), options.quiet);
 }
 
 } // namespace
 
 Summary run_scene(const host::Scene& scene, const RunOptions& options) {
-  if (scene.geometry == host::GeometryKind::plane_strain) return run<host::PlaneStrain>(scene, options);
-  return run<host::Axisymmetric>(scene, options);
+  const auto folder = std::filesystem::path(scene.output_folder).lexically_normal();
+  host::job() = {(folder.has_filename() ? folder : folder.parent_path()).filename().string(),
+                 scene.output_folder};
+  return host::with_geometry(scene.geometry,
+                             [&](auto geometry) { return run<decltype(geometry)>(scene, options); });
 }
 
 } // namespace drivers

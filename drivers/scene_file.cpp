@@ -46,26 +46,44 @@ void read_walls(const TomlTable& root, host::Scene& scene) {
   if (scene.gate.motion == host::GateMotion::lift) scene.gate.speed = gate.number("speed", positive);
 }
 
-void read_numerics(const TomlTable& root, host::Numerics& numerics) {
+void read_geometry(const TomlTable& table, host::Scene& scene) {
+  using host::GeometryKind, host::Sector;
+  const auto geometry = table.text("geometry", {"axisymmetric", "plane_strain", "three_dimensional"});
+  scene.geometry = geometry == "axisymmetric"   ? GeometryKind::axisymmetric
+                   : geometry == "plane_strain" ? GeometryKind::plane_strain
+                                                : GeometryKind::three_dimensional;
+  if (scene.geometry != GeometryKind::three_dimensional) return;
+  const auto sector = table.text("sector", {"full", "half", "quarter"});
+  scene.sector = sector == "full" ? Sector::full : (sector == "half" ? Sector::half : Sector::quarter);
+}
+
+void read_numerics(const TomlTable& root, host::Scene& scene) {
+  auto& numerics = scene.numerics;
+  // Clusters of eight list many more neighbours in three dimensions than one particle has: the skin must be thin.
+  if (scene.geometry == host::GeometryKind::three_dimensional) {
+    numerics.skin = 0.2;
+    numerics.wave_speed_tolerance = 0.02;
+  }
   const auto table = root.table_or_empty("numerics");
   numerics.smoothing_length = table.number("smoothing_length", {1.1, 3}, numerics.smoothing_length);
   numerics.viscosity = table.number("viscosity", {0, 10}, numerics.viscosity);
   numerics.flow_viscosity = table.number("flow_viscosity", {0, 1000}, numerics.flow_viscosity);
   numerics.stress_diffusion = table.number("stress_diffusion", {0, 100}, numerics.stress_diffusion);
   numerics.step_factor = table.number("step_factor", {1e-4, 1}, numerics.step_factor);
+  numerics.wave_speed_tolerance =
+      table.number("wave_speed_tolerance", {0, 0.2}, numerics.wave_speed_tolerance);
   numerics.skin = table.number("skin", {0.01, 3}, numerics.skin);
 }
 
 } // namespace
 
-host::Scene read_scene(const std::string& path) {
+host::Scene read_scene(const std::string& path, const std::vector<std::string>& settings) {
   const bool stored = std::filesystem::path(path).extension() == ".h5";
-  const auto root = stored ? parse_toml(host::stored_scene(path), path, ".") : read_toml(path);
+  const auto root =
+      stored ? parse_toml(host::stored_scene(path), path, ".", settings) : read_toml(path, settings);
   host::Scene scene;
   const auto general = root.table("scene");
-  scene.geometry = general.text("geometry", {"axisymmetric", "plane_strain"}) == "axisymmetric"
-                       ? host::GeometryKind::axisymmetric
-                       : host::GeometryKind::plane_strain;
+  read_geometry(general, scene);
   scene.spacing = general.number("spacing", {1e-6, 1e3});
   scene.gravity = general.number("gravity", {1e-3, 1e3}, 9.81);
   const auto column = root.table("column");
@@ -74,7 +92,7 @@ host::Scene read_scene(const std::string& path) {
   scene.friction_angle = friction_angle(root, scene);
   read_initial_stress(root, scene);
   read_walls(root, scene);
-  read_numerics(root, scene.numerics);
+  read_numerics(root, scene);
   const auto end = root.table("end");
   scene.end_time = end.number("time", positive);
   scene.rest_fraction = end.number("kinetic_energy_fraction", {0, 1}, 1e-6);
@@ -83,6 +101,7 @@ host::Scene read_scene(const std::string& path) {
   if (scene.output_folder.empty()) output.fail("folder", "the name of a folder", "an empty text");
   scene.sample_interval = output.number("sample_interval", positive);
   scene.snapshot_interval = output.number("snapshot_interval", positive);
+  scene.checkpoint_interval = output.number("checkpoint_interval", positive, scene.checkpoint_interval);
   scene.grain_diameter = output.number("grain_diameter", positive);
   root.finish();
   scene.resolved = root.resolved();

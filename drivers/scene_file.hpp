@@ -6,8 +6,9 @@
 
 namespace drivers {
 
-/// Reads a scene file, or the scene stored in a result file (`.h5`), and loads its material. Throws
-/// std::runtime_error with one line that names file, line and key.
-host::Scene read_scene(const std::string& path);
+/// Reads a scene file, or the scene stored in a result file (`.h5`), with `settings` ("table.key=value") in place
+/// of what it says, and loads its material. Throws std::runtime_error with one line that names file, line and
+/// key.
+host::Scene read_scene(const std::string& path, const std::vector<std::string>& settings = {});
 
 } // namespace drivers

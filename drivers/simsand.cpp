@@ -1,49 +1,102 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line.
+#include "calibration/calibrate.hpp"
 #include "drivers/abaqus_deck.hpp"
-#include "drivers/element.hpp"
+#include "drivers/element/command.hpp"
+#include "drivers/info.hpp"
+#include "drivers/interrupt.hpp"
+#include "drivers/plan.hpp"
+#include "drivers/resume.hpp"
 #include "drivers/run.hpp"
 #include "drivers/scene_file.hpp"
+#include "drivers/study/channel.hpp"
+#include "drivers/study/columns.hpp"
 #include "drivers/version.hpp"
+#include "host/vumat_library.hpp"
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <omp.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <thread>
 #include <unistd.h>
 
 namespace {
 
+void resume_run(const std::string& what, const std::string& folder, drivers::RunOptions options) {
+  const auto found = drivers::find_resumption(what, folder);
+  if (!found) {
+    fmt::print("{}: the run is complete\n", what);
+    return;
+  }
+  options.checkpoint = found->checkpoint;
+  drivers::run_scene(found->scene, options);
+}
+
 void add_run(CLI::App& app) {
   static std::string file, folder; // live as long as the program: CLI11 writes into them
   static int threads = 0;
+  static std::vector<std::string> settings;
   static drivers::RunOptions options;
+  static bool resume = false, plan = false;
   auto* run = app.add_subcommand("run", "Run a scene: a column collapses and comes to rest");
-  run->add_option("SCENE", file, "scene file (.toml), or a result file (.h5) whose stored scene is run again")
+  run->add_option("SCENE", file,
+                  "scene file (.toml), or a result file (.h5) whose stored scene is run again; "
+                  "with --resume also the folder of the results")
       ->required();
   run->add_option("-o,--output", folder, "folder for the results, instead of the scene's output.folder");
   run->add_option("-t,--threads", threads, "threads; results do not depend on their number")
       ->check(CLI::Range(1, 1024));
+  run->add_option("--set", settings, "TABLE.KEY=VALUE in place of what the scene says; repeatable")
+      ->allow_extra_args(false);
   run->add_flag("-q,--quiet", options.quiet, "no progress");
+  auto* go_on = run->add_flag("--resume", resume, "go on with an interrupted run from its checkpoint");
+  run->add_flag("--plan", plan, "only say what the run will take: particles, steps, time, memory, disk")
+      ->excludes(go_on);
   run->callback([] {
     if (threads > 0) omp_set_num_threads(threads);
-    auto scene = drivers::read_scene(file);
+    drivers::listen_for_signals();
+    if (resume) return resume_run(file, folder, options);
+    auto scene = drivers::read_scene(file, settings);
     if (!folder.empty()) scene.output_folder = folder;
+    if (plan) {
+      fmt::print("{}", drivers::described(drivers::plan_run(scene), scene));
+      return;
+    }
     drivers::run_scene(scene, options);
   });
 }
 
+void add_info(CLI::App& app) {
+  static std::string file;
+  static bool json = false;
+  auto* info = app.add_subcommand("info", "Say what is in a result or a checkpoint");
+  info->add_option("FILE", file, "result.h5 or checkpoint.h5")->required();
+  info->add_flag("--json", json, "one JSON object for other programs");
+  info->callback([] { fmt::print("{}", drivers::describe_file(file, json)); });
+}
+
 void add_element(CLI::App& app) {
-  static drivers::ElementOptions options;
+  static drivers::ElementBatch batch;
   auto* element = app.add_subcommand("element", "Lead one material point along a path of stress and strain");
-  element->add_option("PATH", options.path_file, "path file (.toml); vocabulary: drivers/ELEMENT.md")
+  element->add_option("PATH", batch.path_files, "path files (.toml); vocabulary: drivers/ELEMENT.md")
       ->required();
-  element->add_option("-o,--output", options.output, "table (.csv); default: standard output");
-  element->add_option("--resolved", options.resolved, "file for the path with every key written out");
+  element->add_option("-o,--output", batch.output,
+                      "table (.csv), default: standard output; several paths: folder for a table of each");
+  element->add_option("--figures", batch.figures, "folder for pictures of all tables");
+  element->add_option("--envelope", batch.envelope,
+                      "table of envelope stages (.csv), default: OUTPUT_envelope.csv");
+  element->add_option("--resolved", batch.resolved, "file for the path with every key written out");
+  element
+      ->add_option("--set", batch.settings, "KEY=VALUE, in place of the path file's, such as material.phi=30")
+      ->allow_extra_args(false);
+  element->add_option("-t,--threads", batch.threads, "paths at a time")->check(CLI::Range(1, 1024));
   element->callback([] {
-    if (drivers::run_element(options) != 0) throw CLI::RuntimeError(1);
+    if (drivers::run_elements(batch) != 0) throw CLI::RuntimeError(1);
   });
 }
 
@@ -62,6 +115,81 @@ void add_abaqus(CLI::App& app) {
     for (const auto& remark : summary.remarks) spdlog::warn("{}", remark);
     fmt::print("{} particles of {:.4g} mm: {}, {}\n", summary.particles, 1e3 * summary.edge, summary.deck,
                summary.page);
+  });
+}
+
+/// What all studies ask for.
+void add_study_options(CLI::App& command, drivers::StudyOptions& options) {
+  options.data = std::filesystem::weakly_canonical(host::beside_program("../data")).string();
+  options.parallel = int(std::thread::hardware_concurrency());
+  command.add_option("-o,--output", options.folder, "folder for runs, tables, pictures and the page")
+      ->capture_default_str();
+  command.add_option("-j,--jobs", options.parallel, "runs at a time")->check(CLI::Range(1, 1024));
+  command.add_option("--data", options.data, "data folder of the project");
+  command.add_flag("-q,--quiet", options.quiet, "no progress");
+}
+
+void add_study(CLI::App& app) {
+  static drivers::ColumnStudyOptions columns;
+  static drivers::ChannelStudyOptions channel;
+  auto* study = app.add_subcommand("study", "Published collapses, run and compared; complete runs stay")
+                    ->require_subcommand(1);
+  auto* command = study->add_subcommand("columns", "The 24 columns of Jin, Lu and Yang");
+  add_study_options(*command, columns.study);
+  command->add_option("--spacing", columns.spacing, "distance of particles, m")
+      ->check(CLI::Range(1e-4, 1e-2))
+      ->capture_default_str();
+  command->add_option("--sets", columns.sets, "parameters: table4 (the paper's), dem (calibrated), literal")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"table4", "dem", "literal"}))
+      ->capture_default_str();
+  command->add_option("--only", columns.only, "only columns with this in their names, as ss_dense or a0.5");
+  command->callback([] { drivers::study_columns(columns); });
+
+  command = study->add_subcommand("channel", "The rods of Bui et al., by SIMSAND and Drucker-Prager");
+  add_study_options(*command, channel.study);
+  command->add_option("--spacing", channel.spacing, "distance of particles, m")
+      ->check(CLI::Range(2e-4, 2e-2))
+      ->capture_default_str();
+  command->callback([] { drivers::study_channel(channel); });
+}
+
+/// Starts the program of the charts beside this one, with the words that follow.
+void add_chart(CLI::App& app, char** argv) {
+  auto* chart =
+      app.add_subcommand("chart", "Charts that the product's choices rest on: simsand chart --help");
+  chart->prefix_command()->set_help_flag();
+  chart->callback([argv] {
+    const auto program = host::beside_program("simsand-chart");
+    char** words = argv;
+    while (*words && std::string(*words) != "chart") ++words;
+    execv(program.c_str(), words); // returns only if it fails
+    throw std::runtime_error(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
+  });
+}
+
+void add_calibrate(CLI::App& app) {
+  static calibration::CalibrateOptions options;
+  static int threads = 0;
+  auto* calibrate = app.add_subcommand("calibrate", "Fit parameters to laboratory tests");
+  calibrate->add_option("FIT", options.fit_file, "fit file (.toml); manual: calibration/README.md")
+      ->required();
+  calibrate->add_option("-o,--output", options.folder,
+                        "folder for the results, instead of the fit's output.folder");
+  calibrate->add_option("-t,--threads", threads, "threads; results do not depend on their number")
+      ->check(CLI::Range(1, 1024));
+  calibrate->add_flag("-q,--quiet", options.quiet, "no progress");
+  calibrate->add_flag("--resume", options.resume, "go on with an interrupted run");
+  calibrate->add_flag("--best-only", options.best_only, "least squares alone, no sampling");
+  calibrate
+      ->add_option("--coverage", options.coverage,
+                   "fit so many synthetic data sets and count the intervals that hold the truth")
+      ->check(CLI::Range(1, 100000));
+  calibrate->callback([] {
+    if (threads > 0) omp_set_num_threads(threads);
+    options.command =
+        fmt::format("simsand calibrate {}{}", options.fit_file, options.best_only ? " --best-only" : "");
+    calibration::calibrate(options);
   });
 }
 
@@ -89,11 +217,18 @@ int main(int argc, char** argv) {
   });
   try {
     add_run(app);
+    add_info(app);
     add_element(app);
     add_abaqus(app);
+    add_study(app);
+    add_chart(app, argv);
+    add_calibrate(app);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
+  } catch (const drivers::Interrupted& stop) {
+    fmt::print(stderr, "simsand: {}\n", stop.what());
+    return 128 + stop.signal; // as a shell counts
   } catch (const std::exception& error) {
     fmt::print(stderr, "simsand: {}\n", error.what());
     return 1;

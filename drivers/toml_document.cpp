@@ -69,25 +69,27 @@ TomlTable TomlTable::Node::add(std::string_view key, const toml::table& below, u
   return result;
 }
 
-TomlTable parse_toml(const std::string& text, const std::string& display_name, const std::string& folder) {
+TomlTable parse_toml(const std::string& text, const std::string& display_name, const std::string& folder,
+                     const Words& settings) {
   auto document = std::make_shared<Document>(Document{display_name, text, folder, {}});
   try {
     document->root = toml::parse(std::string_view(text), std::string_view(display_name));
   } catch (const toml::parse_error& error) {
     throw std::runtime_error(parse_error_line(display_name, error));
   }
+  for (const auto& setting : settings) apply_setting(document->root, setting);
   TomlTable result;
   result.node = std::make_shared<TomlTable::Node>(TomlTable::Node{document, &document->root, "", ""});
   return result;
 }
 
-TomlTable read_toml(const std::string& file_name) {
+TomlTable read_toml(const std::string& file_name, const Words& settings) {
   std::ifstream file(file_name);
   std::stringstream text;
   if (!file || std::filesystem::is_directory(file_name) || !(text << file.rdbuf()))
     throw std::runtime_error(
         fmt::format("{}: expected a readable TOML file with content, found none", file_name));
-  return parse_toml(text.str(), file_name, std::filesystem::path(file_name).parent_path().string());
+  return parse_toml(text.str(), file_name, std::filesystem::path(file_name).parent_path().string(), settings);
 }
 
 } // namespace drivers

@@ -18,6 +18,9 @@ struct Document {
 /// A value in few words, for "found ...".
 std::string shown(const toml::node& node);
 
+/// Replaces or adds a key, KEY=VALUE. Throws std::runtime_error that names the setting.
+void apply_setting(toml::table& root, const std::string& setting);
+
 /// A table that was opened, with what was asked of it.
 struct TomlTable::Node {
   std::shared_ptr<const Document> document;

@@ -71,7 +71,8 @@ std::string TomlTable::where(std::string_view key) const {
   unsigned line = node->line;
   if (const auto at = node->table->find(key); !key.empty() && at != node->table->end())
     line = at->first.source().begin.line ? at->first.source().begin.line : at->second.source().begin.line;
-  return fmt::format("{}:{}", node->document->name, line);
+  return line ? fmt::format("{}:{}", node->document->name, line)
+              : fmt::format("{} (as set by the command)", node->document->name);
 }
 
 void TomlTable::fail(std::string_view key, const std::string& expected, const std::string& found) const {

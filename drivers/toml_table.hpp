@@ -74,15 +74,16 @@ public:
 
 private:
   struct Node;
-  friend TomlTable parse_toml(const std::string&, const std::string&, const std::string&);
+  friend TomlTable parse_toml(const std::string&, const std::string&, const std::string&, const Words&);
   std::shared_ptr<Node> node;
 };
 
-/// Reads a file; its name is shown in errors as given.
-TomlTable read_toml(const std::string& file_name);
+/// Reads a file; its name is shown in errors as given. Each setting, KEY=VALUE, replaces or adds a key: dotted
+/// names of tables, numbers (from 1) in arrays; the value as TOML, or a bare word for a text.
+TomlTable read_toml(const std::string& file_name, const Words& settings = {});
 
 /// Reads a text; `display_name` is shown in errors, relative paths start at `folder`.
 TomlTable parse_toml(const std::string& text, const std::string& display_name,
-                     const std::string& folder = ".");
+                     const std::string& folder = ".", const Words& settings = {});
 
 } // namespace drivers

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What differs between geometries, as a template parameter of the stages: the dimension of the pair
 // loops, the components of stress, the volume behind an area, the hoop terms. The last coordinate is
-// vertical, upwards.
+// vertical, upwards: z in three dimensions, so that its stress components are 11, 22 (horizontal),
+// 33 (vertical), 12, 23, 31.
 #pragma once
+#include "host/scene.hpp"
 #include <numbers>
 
 namespace host {
@@ -23,6 +25,9 @@ struct PlaneStrain {
   /// Thickness in units of `depth` that a particle at horizontal coordinate x stands for.
   static double weight(double) { return 1; }
   static constexpr double depth = 1;
+  /// The volume under an outline is depth_of_outline * integral of weight_of_outline * height.
+  static double weight_of_outline(double) { return 1; }
+  static constexpr double depth_of_outline = 1;
 };
 
 /// r horizontal, z vertical; a particle is a ring. Component 33 is the hoop direction.
@@ -34,6 +39,29 @@ struct Axisymmetric {
   static constexpr bool hoop = true;
   static double weight(double r) { return r; }
   static constexpr double depth = 2 * std::numbers::pi;
+  static double weight_of_outline(double r) { return r; }
+  static constexpr double depth_of_outline = 2 * std::numbers::pi;
 };
+
+/// x and y horizontal, z vertical. The column is a cylinder about the z axis, or the sector of it on the
+/// positive side of one or two planes of symmetry.
+struct ThreeDimensional {
+  static constexpr const char* name = "three_dimensional";
+  static constexpr int dimension = 3;
+  static constexpr int shear_components = 3;
+  static constexpr int stress_components = 6;
+  static constexpr bool hoop = false;
+  static double weight(double) { return 1; }
+  static constexpr double depth = 1;
+  static double weight_of_outline(double r) { return r; }
+  static constexpr double depth_of_outline = 2 * std::numbers::pi;
+};
+
+/// What `f` returns for the geometry named at run time; it is called as f(PlaneStrain{}) and so on.
+template <class F> auto with_geometry(GeometryKind kind, F&& f) {
+  if (kind == GeometryKind::plane_strain) return f(PlaneStrain{});
+  if (kind == GeometryKind::axisymmetric) return f(Axisymmetric{});
+  return f(ThreeDimensional{});
+}
 
 } // namespace host

@@ -45,9 +45,12 @@ void update_gradient(Particles<Geometry>& p, const Kernel<Geometry::dimension>& 
 
 template void show_motion(const Particles<PlaneStrain>&, Records<PlaneStrain>&);
 template void show_motion(const Particles<Axisymmetric>&, Records<Axisymmetric>&);
+template void show_motion(const Particles<ThreeDimensional>&, Records<ThreeDimensional>&);
 template void update_gradient(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&,
                               const Records<PlaneStrain>&);
 template void update_gradient(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&,
                               const Records<Axisymmetric>&);
+template void update_gradient(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&,
+                              const Records<ThreeDimensional>&);
 
 } // namespace host

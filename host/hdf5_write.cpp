@@ -2,11 +2,10 @@
 #include "host/hdf5_write.hpp"
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <fmt/format.h>
 #include <stdexcept>
-#include <sys/file.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace host {
 namespace {
@@ -18,15 +17,19 @@ constexpr hsize_t rows_per_chunk = 16384; ///< 128 KiB per component, within HDF
 void guarded_write(const std::filesystem::path& path, const std::string& what,
                    const std::function<void()>& write) {
   const QuietDestructors quiet;
-  try {
-    write();
-  } catch (const H5::Exception& e) {
+  const auto fail = [&](const std::string& reason) {
     std::error_code error;
     const auto space = std::filesystem::space(path.parent_path().empty() ? "." : path.parent_path(), error);
     const std::string free =
         error ? "" : fmt::format("; {:.1f} MB free on its disk", double(space.available) / 1e6);
-    throw std::runtime_error(
-        fmt::format("{}: cannot write {} ({}{})", path.string(), what, e.getDetailMsg(), free));
+    throw std::runtime_error(fmt::format("{}: cannot write {} ({}{})", path.string(), what, reason, free));
+  };
+  try {
+    write();
+  } catch (const H5::Exception& e) {
+    fail(e.getDetailMsg());
+  } catch (const std::system_error& e) {
+    fail(e.code().message());
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error(fmt::format("{}: cannot write {} ({})", path.string(), what, e.what()));
   }
@@ -38,14 +41,34 @@ void require_writable(const std::filesystem::path& path) {
   if (error)
     throw std::runtime_error(fmt::format("{}: cannot create the output folder ({})",
                                          path.parent_path().string(), error.message()));
-  std::FILE* file = std::fopen(path.c_str(), "ab");
-  if (!file)
+  const auto refuse = [&](int reason) {
     throw std::runtime_error(fmt::format("{}: cannot create the result file ({})", path.string(),
-                                         std::generic_category().message(errno)));
-  // HDF5 empties the file before it looks for the lock of another run that is writing it.
-  const bool taken = flock(fileno(file), LOCK_EX | LOCK_NB) != 0;
-  std::fclose(file);
-  if (taken) throw std::runtime_error(fmt::format("{}: another run is writing this file", path.string()));
+                                         std::generic_category().message(reason)));
+  };
+  if (std::filesystem::is_directory(path, error)) refuse(EISDIR);
+  if (access(path.has_parent_path() ? path.parent_path().c_str() : ".", W_OK) != 0) refuse(errno);
+}
+
+H5::H5File memory_file() {
+  constexpr std::size_t growth = 1 << 20; // bytes
+  H5::FileAccPropList access;
+  access.setCore(growth, false);
+  return {"in memory", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, access};
+}
+
+std::string file_image(const H5::H5File& file) {
+  file.flush(H5F_SCOPE_GLOBAL);
+  const auto size = H5Fget_file_image(file.getId(), nullptr, 0);
+  std::string bytes(std::size_t(std::max<ssize_t>(size, 0)), 0);
+  if (size <= 0 || H5Fget_file_image(file.getId(), bytes.data(), bytes.size()) != size)
+    throw H5::FileIException("file_image", "no image of the file in memory");
+  return bytes;
+}
+
+H5::H5File open_to_read(const std::filesystem::path& path) {
+  H5::FileAccPropList access;
+  H5Pset_file_locking(access.getId(), false, true);
+  return {path.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
 }
 
 const H5::PredType& real() {

@@ -23,13 +23,21 @@ private:
   std::streambuf* kept;
 };
 
-/// Runs `write` and turns HDF5's exceptions, and std::invalid_argument, into one std::runtime_error that
+/// Runs `write` and turns HDF5's exceptions, those of the system and std::invalid_argument into one std::runtime_error that
 /// names the file and `what` was being written.
 void guarded_write(const std::filesystem::path& path, const std::string& what,
                    const std::function<void()>& write);
 
-/// Makes folder and file writable or says why they are not: HDF5's own text does not.
+/// Makes the folder of `path`, or says why the file cannot be written there.
 void require_writable(const std::filesystem::path& path);
+
+/// An HDF5 file that is built in memory: no disk can fail before it is whole.
+H5::H5File memory_file();
+/// The bytes of such a file, as they belong on disk.
+std::string file_image(const H5::H5File& file);
+
+/// Opens for reading. Takes no lock, for files here never change in place. Throws H5::Exception.
+H5::H5File open_to_read(const std::filesystem::path& path);
 
 const H5::PredType& real();
 H5::StrType text_type(const std::string& text);

@@ -7,25 +7,40 @@
 namespace host {
 namespace {
 
-/// Change of a tangential `velocity` by friction, for a normal change of velocity of `normal`: at most what
-/// stops it.
-double friction_change(const Floor& floor, double normal, double velocity) {
-  const double most = floor.no_slip ? std::abs(velocity) : floor.friction * std::max(normal, 0.0);
-  return -std::copysign(std::min(most, std::abs(velocity)), velocity);
+/// Slows the horizontal part of `v` down by friction, for a normal change of velocity of `normal`: at most to a
+/// stop. Returns the change.
+template <int D> std::array<double, D - 1> rub(const Floor& floor, double normal, double (&v)[D]) {
+  std::array<double, D - 1> change{};
+  double speed = std::abs(v[0]);
+  if constexpr (D == 3) speed = std::hypot(v[0], v[1]);
+  if (speed == 0) return change;
+  const double most = floor.no_slip ? speed : floor.friction * std::max(normal, 0.0);
+  for (int a = 0; a < D - 1; ++a) {
+    change[a] = -(v[a] / speed) * std::min(most, speed);
+    v[a] += change[a];
+  }
+  return change;
 }
 
 /// True if the particle, now at `from`, is on the side of the mirror where the mirror acts.
 template <int D> bool faces(const Mirror& mirror, const double (&from)[D], const double (&to)[D]) {
-  if (mirror.axis == D - 1) return true;
-  const double depth = (mirror.positive_side ? 1 : -1) * (from[mirror.axis] - mirror.position);
-  return depth >= 0 && to[D - 1] >= mirror.lower_edge;
+  return !ends_below<D>(mirror) || (depth_behind(mirror, from) >= 0 && to[D - 1] >= mirror.lower_edge);
 }
 
 /// Keeps `x` at least `gap` away from the mirror and stops `v` towards it; false if nothing was to do.
 template <int D> bool hold_back(const Mirror& mirror, double gap, double (&x)[D], double (&v)[D]) {
+  if (depth_behind(mirror, x) >= gap) return false;
+  if (mirror.cylinder()) {
+    const auto n = normal_at<D>(mirror, x);
+    const double towards = n[0] * v[0] + n[1] * v[1];
+    for (int a = 0; a < 2; ++a) {
+      x[a] = -n[a] * (mirror.position - gap);
+      if (towards < 0) v[a] -= towards * n[a];
+    }
+    return true;
+  }
   const int a = mirror.axis;
   const double side = mirror.positive_side ? 1 : -1;
-  if (side * (x[a] - mirror.position) >= gap) return false;
   x[a] = mirror.position + side * gap;
   if (side * v[a] < 0) v[a] = 0;
   return true;
@@ -43,14 +58,14 @@ void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double 
                  double (&x)[D], double (&v)[D], Work& work) {
   constexpr int up = D - 1;
   for (const Mirror& mirror : mirrors) {
-    const double height = x[up], energy = half_square(v), normal_velocity = v[mirror.axis];
+    const double height = x[up], energy = half_square(v), falling = v[up];
     if (!faces(mirror, from, x)) continue;
     if (!hold_back(mirror, (mirror.wall ? contact_gap : axis_gap) * scene.spacing, x, v)) continue;
     ++work.guarded;
     work.wall += mass * (half_square(v) - energy + scene.gravity * (x[up] - height));
-    if (mirror.axis != up) continue;
+    if (ends_below<D>(mirror)) continue;
     const double before = half_square(v);
-    for (int a = 0; a < up; ++a) v[a] += friction_change(scene.floor, v[up] - normal_velocity, v[a]);
+    rub(scene.floor, v[up] - falling, v);
     work.friction += mass * (half_square(v) - before);
   }
 }
@@ -75,7 +90,8 @@ Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mir
   for (int c = 0; c < p.clusters(); ++c)
     for (int i = c * lanes; i < std::min((c + 1) * lanes, p.count); ++i) {
       Work& work = of_cluster[c];
-      double from[D], x[D], before[D], v[D], by_friction[D]{};
+      double from[D], x[D], before[D], v[D];
+      std::array<double, up> by_friction{};
       for (int a = 0; a < D; ++a) {
         from[a] = p.position[a][i];
         before[a] = p.velocity[a][i];
@@ -84,16 +100,13 @@ Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mir
       }
       // Friction goes with the push of the floor, over its reach; without slip the lowest layer stands.
       if (from[up] < (scene.floor.no_slip ? scene.spacing : reach))
-        for (int a = 0; a < up; ++a) {
-          by_friction[a] = friction_change(scene.floor, kick * p.wall_acceleration[up][i], v[a]);
-          v[a] += by_friction[a];
-        }
+        by_friction = rub(scene.floor, kick * p.wall_acceleration[up][i], v);
       for (int a = 0; a < D; ++a) {
         const double impulse = p.mass[i] * 0.5 * (before[a] + v[a]);
         work.stress += impulse * kick * p.stress_acceleration[a][i];
         work.viscosity += impulse * kick * p.viscous_acceleration[a][i];
         work.wall += impulse * kick * p.wall_acceleration[a][i];
-        work.friction += impulse * by_friction[a];
+        if (a < up) work.friction += impulse * by_friction[a];
         x[a] = from[a] + dt * v[a];
       }
       touch_walls(scene, mirrors, p.mass[i], from, x, v, work);
@@ -127,9 +140,13 @@ template Work integrate(Particles<PlaneStrain>&, const Scene&, const std::vector
                         double);
 template Work integrate(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&, double, double,
                         double);
+template Work integrate(Particles<ThreeDimensional>&, const Scene&, const std::vector<Mirror>&, double,
+                        double, double);
 template double kinetic_energy(const Particles<PlaneStrain>&);
 template double kinetic_energy(const Particles<Axisymmetric>&);
+template double kinetic_energy(const Particles<ThreeDimensional>&);
 template double potential_energy(const Particles<PlaneStrain>&, double);
 template double potential_energy(const Particles<Axisymmetric>&, double);
+template double potential_energy(const Particles<ThreeDimensional>&, double);
 
 } // namespace host

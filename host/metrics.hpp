@@ -3,6 +3,7 @@
 #pragma once
 #include "host/kernel.hpp"
 #include "host/particles.hpp"
+#include "host/scene.hpp"
 #include <span>
 
 namespace host {
@@ -10,11 +11,29 @@ namespace host {
 /// Radii (plane strain: horizontal coordinates) at which an outline is sampled, m.
 std::vector<double> outline_radii(double spacing, double largest);
 
-/// Height of the surface over each radius, m: the uppermost point where the particles fill half of the
-/// kernel, sum_j V_j W = 1/2 with images across axis and floor, so single grains in flight do not count.
+/// Heights of the surface, m, profiles[azimuth][radius]; one profile in the plane.
+using Profiles = std::vector<std::vector<double>>;
+
+/// Height of the surface over each radius: the uppermost point where the particles fill half of the
+/// kernel, sum_j V_j W = 1/2 with images across planes of symmetry and floor, so single grains in flight do
+/// not count. In three dimensions along eight azimuths in each quarter of the circle.
 template <class Geometry>
-std::vector<double> outline(const Particles<Geometry>& particles, const Kernel<2>& kernel,
-                            std::span<const double> radii);
+Profiles surface_profiles(const Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
+                          std::span<const double> radii, Sector sector = Sector::full);
+
+/// Mean over the azimuths: the outline.
+std::vector<double> mean_profile(const Profiles& profiles);
+
+/// The mean of the surface profiles.
+template <class Geometry>
+std::vector<double> outline(const Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
+                            std::span<const double> radii, Sector sector = Sector::full);
+
+/// Mean and standard deviation over the azimuths of the front radius, m.
+struct Front {
+  double mean = 0, scatter = 0;
+};
+Front front_of(const Profiles& profiles, std::span<const double> radii, double thickness);
 
 /// Largest height of an outline.
 double outline_height(std::span<const double> outline);
@@ -23,9 +42,11 @@ double outline_height(std::span<const double> outline);
 /// NaN if the deposit reaches past the last radius.
 double front_radius(std::span<const double> radii, std::span<const double> outline, double thickness);
 
-/// Volume under an outline, m3 (plane strain: of the half that is simulated, m2).
+/// Volume under an outline, m3 (plane strain: of the half that is simulated, m2; three dimensions: of the
+/// sector).
 template <class Geometry>
-double outline_volume(std::span<const double> radii, std::span<const double> outline);
+double outline_volume(std::span<const double> radii, std::span<const double> outline,
+                      Sector sector = Sector::full);
 
 /// Smallest, mean and largest of a quantity over the particles that carry at least `least_pressure`, Pa,
 /// weighted by mass; and how many those are.

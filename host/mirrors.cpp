@@ -9,41 +9,88 @@ namespace {
 /// False for what the mirror does not reach: below the wall's edge, or already past it. The image then
 /// has no volume and takes part in nothing.
 template <int D> bool acts_on(const Mirror& m, const double (&position)[D]) {
-  const double depth = m.positive_side ? position[m.axis] - m.position : m.position - position[m.axis];
-  return depth >= 0 && (m.axis == D - 1 || std::abs(position[D - 1]) >= m.lower_edge);
+  return depth_behind(m, position) >= 0 && (!ends_below<D>(m) || std::abs(position[D - 1]) >= m.lower_edge);
 }
 
-template <int D> void reflect_position(const Mirror& m, double (&position)[D]) {
-  position[m.axis] = 2 * m.position - position[m.axis];
+/// Reflects `position`; returns how much longer the circle of the image is, 1 at a plane.
+template <class Point> double reflect_position(const Mirror& m, Point& position) {
+  if (!m.cylinder()) {
+    position[m.axis] = 2 * m.position - position[m.axis];
+    return 1;
+  }
+  const double r = std::hypot(position[0], position[1]), stretch = (2 * m.position - r) / r;
+  position[0] *= stretch;
+  position[1] *= stretch;
+  return stretch;
 }
 
-template <int D> void reflect_velocity(const Mirror& m, double (&velocity)[D]) {
-  velocity[m.axis] = -velocity[m.axis];
+/// Reflects a vector in the plane of normal `n`.
+template <int D> void reflect_vector(const std::array<double, D>& n, double (&v)[D]) {
+  double twice_normal = 0;
+  for (int a = 0; a < D; ++a) twice_normal += 2 * n[a] * v[a];
+  for (int a = 0; a < D; ++a) v[a] -= twice_normal * n[a];
+}
+
+template <int D> void reflect_velocity(const Mirror& m, const std::array<double, D>& n, double (&v)[D]) {
+  if (m.cylinder())
+    reflect_vector<D>(n, v);
+  else
+    v[m.axis] = -v[m.axis];
+}
+
+/// H s H of a symmetric tensor in the order of the VUMAT whose shear components are `shear` times the tensor's,
+/// H the reflection in the plane of normal `n`.
+void reflect_symmetric(const std::array<double, 3>& n, double shear, double (&s)[6]) {
+  double t[3] = {}, normal = 0; // s n, n s n
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) t[a] += (a == b ? 1 : 1 / shear) * s[component<3>(a, b)] * n[b];
+  for (int a = 0; a < 3; ++a) normal += n[a] * t[a];
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b)
+      s[component<3>(a, b)] +=
+          (a == b ? 1 : shear) * (4 * normal * n[a] * n[b] - 2 * (n[a] * t[b] + t[a] * n[b]));
+}
+
+/// Stress and velocity gradient behind a mirror. Reflection turns the sign of shear on a plane; friction is a force
+/// of its own. The image in the floor lies deeper by twice the particle's height: the weight is carried on, or the
+/// gradient of the vertical stress would vanish there.
+void reflect_tensors(const Mirror& mirror, const std::array<double, 3>& n, double depth,
+                     StressRecord<ThreeDimensional>& record) {
+  reflect_symmetric(n, 1, record.flux);
+  reflect_symmetric(n, 2, record.strain_rate);
+  for (int a = 0; a < 3; ++a)
+    record.flux[a] -= mirror.weight_gradient * 2 * depth * (a == 2 ? 1 : mirror.horizontal_ratio);
+}
+
+Mirror plane_of_symmetry(int axis) {
+  return {.axis = axis, .lower_edge = -std::numeric_limits<double>::infinity()};
 }
 
 } // namespace
 
 std::vector<Mirror> scene_mirrors(const Scene& scene) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  const Mirror axis{.axis = 0, .position = 0, .positive_side = true, .wall = false, .lower_edge = -far};
-  const Mirror floor{.axis = 1,
-                     .position = 0,
-                     .positive_side = true,
-                     .wall = true,
-                     .weight_gradient = scene.bulk_density * scene.gravity,
-                     .horizontal_ratio = scene.earth_pressure_ratio,
-                     .lower_edge = -far};
-  const Mirror gate{.axis = 0,
-                    .position = scene.column.radius,
-                    .positive_side = false,
-                    .wall = true,
-                    .lower_edge = scene.gate.lower_edge(0)};
-  if (scene.gate.motion == GateMotion::remove) return {axis, floor};
-  return {axis, floor, gate};
+  const bool solid = scene.geometry == GeometryKind::three_dimensional;
+  std::vector<Mirror> mirrors;
+  for (int axis = 0; axis < (solid ? symmetry_planes(scene.sector) : 1); ++axis)
+    mirrors.push_back(plane_of_symmetry(axis));
+  Mirror floor = plane_of_symmetry(solid ? 2 : 1);
+  floor.wall = true;
+  floor.weight_gradient = scene.bulk_density * scene.gravity;
+  floor.horizontal_ratio = scene.earth_pressure_ratio;
+  mirrors.push_back(floor);
+  if (scene.gate.motion != GateMotion::remove)
+    mirrors.push_back({.axis = solid ? Mirror::radial : 0,
+                       .position = scene.column.radius,
+                       .positive_side = false,
+                       .wall = true,
+                       .gate = true,
+                       .lower_edge = scene.gate.lower_edge(0)});
+  return mirrors;
 }
 
 void move_gate(std::vector<Mirror>& mirrors, const Scene& scene, double time) {
-  if (mirrors.size() > 2) mirrors[2].lower_edge = scene.gate.lower_edge(time);
+  for (Mirror& mirror : mirrors)
+    if (mirror.gate) mirror.lower_edge = scene.gate.lower_edge(time);
 }
 
 template <class Geometry>
@@ -54,11 +101,11 @@ Images find_images(const Particles<Geometry>& p, const std::vector<Mirror>& mirr
   std::vector<std::array<double, D>> position; // of the images so far
   const auto consider = [&](int source, std::array<double, D> x, int m) {
     const Mirror& mirror = mirrors[m];
-    const double depth = (mirror.positive_side ? 1 : -1) * (x[mirror.axis] - mirror.position);
+    const double depth = depth_behind(mirror, x);
     if (depth < -reach / 2 || depth > reach ||
-        (mirror.axis != D - 1 && std::abs(x[D - 1]) < mirror.lower_edge))
+        (ends_below<D>(mirror) && std::abs(x[D - 1]) < mirror.lower_edge))
       return;
-    x[mirror.axis] = 2 * mirror.position - x[mirror.axis];
+    reflect_position(mirror, x);
     images.list.push_back({source, m});
     position.push_back(x);
   };
@@ -82,14 +129,16 @@ Images find_images(const Particles<Geometry>& p, const std::vector<Mirror>& mirr
 
 template <class Geometry>
 void reflect_motion(const Images& images, const std::vector<Mirror>& mirrors, Records<Geometry>& records) {
+  constexpr int D = Geometry::dimension;
   int at = images.first;
   for (const Image& image : images.list) {
     const Mirror& mirror = mirrors[image.mirror];
     auto& record = records.motion[at++];
     record = records.motion[image.source];
     if (!acts_on(mirror, record.position)) record.volume = 0;
-    reflect_position(mirror, record.position);
-    reflect_velocity(mirror, record.velocity);
+    const auto n = normal_at<D>(mirror, record.position);
+    record.volume *= reflect_position(mirror, record.position);
+    reflect_velocity<D>(mirror, n, record.velocity);
   }
 }
 
@@ -102,35 +151,40 @@ void reflect_stress(const Images& images, const std::vector<Mirror>& mirrors, Re
     auto& record = records.stress[at++];
     record = records.stress[image.source];
     if (!acts_on(mirror, record.position)) record.volume = 0;
-    const double depth = record.position[mirror.axis] - mirror.position;
-    reflect_position(mirror, record.position);
-    reflect_velocity(mirror, record.velocity);
-    const double weight = Geometry::weight(record.position[0]);
-    const double ratio = weight / record.weight;
-    record.weight = weight;
-    for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b) {
-        // Reflection turns the sign of shear on the plane; friction is a force of its own.
-        const bool turns = (a == mirror.axis) != (b == mirror.axis);
-        if (turns) record.gradient[a * D + b] *= -1;
-        if (a > b) continue;
-        const int c = component<D>(a, b);
-        record.flux[c] *= turns ? -ratio : ratio;
-        if (turns) record.reduced_stress[c] *= -1;
-      }
-    // The image lies deeper by twice the particle's height: carry the weight on, or the gradient of
-    // the vertical stress would vanish at the floor.
-    for (int a = 0; a < D; ++a)
-      record.flux[a] -=
-          weight * mirror.weight_gradient * 2 * depth * (a == D - 1 ? 1 : mirror.horizontal_ratio);
+    const double depth = depth_behind(mirror, record.position);
+    const auto n = normal_at<D>(mirror, record.position);
+    record.volume *= reflect_position(mirror, record.position);
+    reflect_velocity<D>(mirror, n, record.velocity);
+    if constexpr (D == 3)
+      reflect_tensors(mirror, n, depth, record);
+    else {
+      const double weight = Geometry::weight(record.position[0]);
+      const double ratio = weight / record.weight;
+      record.weight = weight;
+      for (int a = 0; a < D; ++a)
+        for (int b = 0; b < D; ++b) {
+          const bool turns = (a == mirror.axis) != (b == mirror.axis);
+          if (turns) record.gradient[a * D + b] *= -1;
+          if (a > b) continue;
+          const int c = component<D>(a, b);
+          record.flux[c] *= turns ? -ratio : ratio;
+          if (turns) record.reduced_stress[c] *= -1;
+        }
+      for (int a = 0; a < D; ++a)
+        record.flux[a] -=
+            weight * mirror.weight_gradient * 2 * depth * (a == D - 1 ? 1 : mirror.horizontal_ratio);
+    }
   }
 }
 
 template Images find_images(const Particles<PlaneStrain>&, const std::vector<Mirror>&, double);
 template Images find_images(const Particles<Axisymmetric>&, const std::vector<Mirror>&, double);
+template Images find_images(const Particles<ThreeDimensional>&, const std::vector<Mirror>&, double);
 template void reflect_motion(const Images&, const std::vector<Mirror>&, Records<PlaneStrain>&);
 template void reflect_motion(const Images&, const std::vector<Mirror>&, Records<Axisymmetric>&);
+template void reflect_motion(const Images&, const std::vector<Mirror>&, Records<ThreeDimensional>&);
 template void reflect_stress(const Images&, const std::vector<Mirror>&, Records<PlaneStrain>&);
 template void reflect_stress(const Images&, const std::vector<Mirror>&, Records<Axisymmetric>&);
+template void reflect_stress(const Images&, const std::vector<Mirror>&, Records<ThreeDimensional>&);
 
 } // namespace host

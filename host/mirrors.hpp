@@ -1,22 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planes that reflect: the axis of symmetry, the floor, the retaining wall. A particle near a plane
-// has an image behind it, so supports are complete there and the pair loops know no walls.
+// Surfaces that reflect: planes of symmetry, the floor, the retaining wall. A particle near one has an image
+// behind it, so supports are complete there and the pair loops know no walls. A cylinder reflects in its
+// tangent plane at the particle; its images stand on a longer circle and have the volume of their place.
 #pragma once
 #include "host/records.hpp"
 #include "host/scene.hpp"
 
 namespace host {
 
-/// A plane `coordinate[axis] = position`; the material lies on its positive side if `positive_side`.
+/// The plane `coordinate[axis] = position` with the material on its positive side if `positive_side`; or
+/// the cylinder of radius `position` about the vertical axis, with the material inside.
 struct Mirror {
+  static constexpr int radial = -1; ///< `axis` of a cylinder
   int axis = 0;
   double position = 0; ///< m
   bool positive_side = true;
   bool wall = false;           ///< its forces are wall forces; false: the material continues
+  bool gate = false;           ///< the retaining wall
   double weight_gradient = 0;  ///< N/m3: vertical stress in the image grows downwards by it
   double horizontal_ratio = 0; ///< horizontal over vertical part of that growth
   double lower_edge = 0;       ///< m: acts on what lies above; changes in time
+  bool cylinder() const { return axis == radial; }
 };
+
+/// Distance from the mirror, m, positive on the side of the material.
+template <class Point> inline double depth_behind(const Mirror& m, const Point& x) {
+  if (m.cylinder()) return m.position - std::hypot(x[0], x[1]);
+  return m.positive_side ? x[m.axis] - m.position : m.position - x[m.axis];
+}
+
+/// Unit normal of the mirror towards the material, at a point off the axis of a cylinder.
+template <int D> inline std::array<double, D> normal_at(const Mirror& m, const double (&x)[D]) {
+  std::array<double, D> n{};
+  if (m.cylinder()) {
+    const double r = std::hypot(x[0], x[1]);
+    n[0] = -x[0] / r;
+    n[1] = -x[1] / r;
+  } else
+    n[m.axis] = m.positive_side ? 1 : -1;
+  return n;
+}
+
+/// True for vertical mirrors, which end at their lower edge.
+template <int D> constexpr bool ends_below(const Mirror& m) {
+  return m.cylinder() || m.axis != D - 1;
+}
 
 /// An image: of record `source` (a particle or an earlier image) in mirror `mirror`.
 struct Image {
@@ -30,7 +58,7 @@ struct Images {
   int first_wall = 0; ///< record index of the first image behind a wall
 };
 
-/// The planes of a scene at its start.
+/// The mirrors of a scene at its start, planes of symmetry first.
 std::vector<Mirror> scene_mirrors(const Scene& scene);
 
 /// Moves the retaining wall to where it is at `time`, s.

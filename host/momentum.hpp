@@ -101,7 +101,12 @@ inline Real stress_diffusivity(double delta, double h, const Real& wave_speed, c
 /// from `records.stress`. Gravity and friction are not in them.
 template <class Geometry>
 void update_acceleration(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
-                         const NeighbourLists& lists, const Records<Geometry>& records,
-                         const Numerics& numerics);
+                         const NeighbourLists& lists, const Records<Geometry>& records, const Scene& scene);
+
+/// The same in three dimensions, by host/momentum_solid.hpp.
+template <>
+void update_acceleration(Particles<ThreeDimensional>& particles, const Kernel<3>& kernel,
+                         const NeighbourLists& lists, const Records<ThreeDimensional>& records,
+                         const Scene& scene);
 
 } // namespace host

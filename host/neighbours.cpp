@@ -41,6 +41,16 @@ template <int D> struct CellGrid {
 
 constexpr int largest_grid = 1 << 22;
 
+/// The row of cells after that of `cell` in the box `from` to `to`; the last coordinate counts the box out.
+void next_row(std::array<int, 2>& cell, const std::array<int, 2>&, const std::array<int, 2>&) {
+  ++cell[1];
+}
+void next_row(std::array<int, 3>& cell, const std::array<int, 3>& from, const std::array<int, 3>& to) {
+  if (++cell[1] <= to[1]) return;
+  cell[1] = from[1];
+  ++cell[2];
+}
+
 template <class Geometry>
 CellGrid<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, const Images& images,
                                               const Records<Geometry>& records, double size) {
@@ -80,25 +90,67 @@ CellGrid<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, cons
 
 } // namespace
 
-template <class Geometry> void sort_particles(Particles<Geometry>& p, double cell) {
-  constexpr int D = Geometry::dimension;
+namespace {
+
+/// Particles by their place on a Morton curve of square cells. Ties by creation order, so that the result
+/// depends on nothing but the positions.
+std::vector<int> spatial_order(const std::array<Array, 2>& position, const std::vector<int>& id, int count,
+                               double cell) {
   constexpr double most = double((1u << 31) - 1);
-  std::array<double, D> lower;
-  for (int a = 0; a < D; ++a)
-    lower[a] = *std::min_element(p.position[a].begin(), p.position[a].begin() + p.count);
-  std::vector<std::pair<std::uint64_t, int>> order(p.count);
-  for (int i = 0; i < p.count; ++i) {
-    std::array<std::uint32_t, D> c;
-    for (int a = 0; a < D; ++a) c[a] = std::uint32_t(std::min((p.position[a][i] - lower[a]) / cell, most));
+  std::array<double, 2> lower;
+  for (int a = 0; a < 2; ++a) lower[a] = *std::min_element(position[a].begin(), position[a].begin() + count);
+  std::vector<std::pair<std::uint64_t, int>> order(count);
+  for (int i = 0; i < count; ++i) {
+    std::array<std::uint32_t, 2> c;
+    for (int a = 0; a < 2; ++a) c[a] = std::uint32_t(std::min((position[a][i] - lower[a]) / cell, most));
     order[i] = {morton(c), i};
   }
-  // Ties by creation order, so that the result depends on nothing but the positions.
   std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first < b.first : p.id[a.second] < p.id[b.second];
+    return a.first != b.first ? a.first < b.first : id[a.second] < id[b.second];
   });
+  std::vector<int> sorted(count);
+  for (int i = 0; i < count; ++i) sorted[i] = order[i].second;
+  return sorted;
+}
+
+/// Halves the particles again and again across the longest side of their box, down to clusters of eight: boxes
+/// around clusters are smaller by a tenth than with a Morton curve, and so are the lists. Ties by creation order.
+void bisect(const std::array<Array, 3>& position, const std::vector<int>& id, int* begin, int* end) {
+  if (end - begin <= lanes) return std::sort(begin, end, [&](int i, int j) { return id[i] < id[j]; });
+  int along = 0;
+  double longest = -1;
+  for (int a = 0; a < 3; ++a) {
+    const auto [low, high] =
+        std::minmax_element(begin, end, [&](int i, int j) { return position[a][i] < position[a][j]; });
+    const double side = position[a][*high] - position[a][*low];
+    if (side > longest) {
+      longest = side;
+      along = a;
+    }
+  }
+  const auto& x = position[along];
+  int* middle = begin + ((end - begin) / 2 + lanes - 1) / lanes * lanes;
+  std::nth_element(begin, middle, end,
+                   [&](int i, int j) { return x[i] != x[j] ? x[i] < x[j] : id[i] < id[j]; });
+  bisect(position, id, begin, middle);
+  bisect(position, id, middle, end);
+}
+
+std::vector<int> spatial_order(const std::array<Array, 3>& position, const std::vector<int>& id, int count,
+                               double) {
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  bisect(position, id, order.data(), order.data() + count);
+  return order;
+}
+
+} // namespace
+
+template <class Geometry> void sort_particles(Particles<Geometry>& p, double cell) {
+  const auto order = spatial_order(p.position, p.id, p.count, cell);
   const auto permute = [&](auto& array) {
     auto old = array;
-    for (int i = 0; i < p.count; ++i) array[i] = old[order[i].second];
+    for (int i = 0; i < p.count; ++i) array[i] = old[order[i]];
   };
   permute(p.id);
   p.each_persistent(permute);
@@ -130,7 +182,7 @@ void find_neighbours(const Particles<Geometry>& p, const Images& images, const R
       int* out = lists.entries.data() + std::size_t(c) * lists.capacity;
       for (const bool wall : {false, true}) {
         int n = wall ? lists.interior[c] : 0;
-        for (auto cell = from; cell[D - 1] <= to[D - 1]; ++cell[D - 1])
+        for (auto cell = from; cell[D - 1] <= to[D - 1]; next_row(cell, from, to))
           for (cell[0] = from[0]; cell[0] <= to[0]; ++cell[0])
             for (int k = grid.start[grid.index(cell)]; k < grid.start[grid.index(cell) + 1]; ++k) {
               const int j = grid.sorted[k];
@@ -172,11 +224,15 @@ double largest_displacement(const Particles<Geometry>& p,
 
 template void sort_particles(Particles<PlaneStrain>&, double);
 template void sort_particles(Particles<Axisymmetric>&, double);
+template void sort_particles(Particles<ThreeDimensional>&, double);
 template void find_neighbours(const Particles<PlaneStrain>&, const Images&, const Records<PlaneStrain>&,
                               double, NeighbourLists&);
 template void find_neighbours(const Particles<Axisymmetric>&, const Images&, const Records<Axisymmetric>&,
                               double, NeighbourLists&);
+template void find_neighbours(const Particles<ThreeDimensional>&, const Images&,
+                              const Records<ThreeDimensional>&, double, NeighbourLists&);
 template double largest_displacement(const Particles<PlaneStrain>&, const std::array<Array, 2>&);
 template double largest_displacement(const Particles<Axisymmetric>&, const std::array<Array, 2>&);
+template double largest_displacement(const Particles<ThreeDimensional>&, const std::array<Array, 3>&);
 
 } // namespace host

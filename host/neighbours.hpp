@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles in Morton order and one neighbour list for each cluster of eight. Lists reach beyond the
+// Particles sorted in space and one neighbour list for each cluster of eight. Lists reach beyond the
 // support by a skin and hold until a particle has moved half of it.
 #pragma once
 #include "host/mirrors.hpp"
@@ -15,7 +15,8 @@ struct NeighbourLists {
   const int* begin(int cluster) const { return entries.data() + std::size_t(cluster) * capacity; }
 };
 
-/// Sorts the particles in space: along a Morton curve of cells of `cell`, m.
+/// Sorts the particles in space: in two dimensions along a Morton curve of cells of `cell`, m, in three by
+/// bisection.
 template <class Geometry> void sort_particles(Particles<Geometry>& particles, double cell);
 
 /// Lists, for each cluster, all records within `reach` of one of its particles. Reads `records.motion`.

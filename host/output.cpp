@@ -2,9 +2,12 @@
 #include "host/output.hpp"
 #include "host/field_rows.hpp"
 #include "host/hdf5_write.hpp"
+#include "host/whole_file.hpp"
 #include "host/xdmf.hpp"
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -12,8 +15,12 @@
 namespace host {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int format_version = 1;
 constexpr hsize_t samples_per_chunk = 512;
+constexpr auto snapshot_name = "{:04d}";
+constexpr auto constants = "particles"; ///< group and part of what never changes
 
 void write_fields(const H5::Group& group, std::span<const Field> fields,
                   const std::vector<std::vector<double>>& values) {
@@ -21,147 +28,250 @@ void write_fields(const H5::Group& group, std::span<const Field> fields,
     write_dataset(group, fields[f].name, fields[f].unit, values[f], int(fields[f].components.size()));
 }
 
+/// A column that a reader may find empty.
+void write_column(const H5::Group& group, const Quantity& column, const std::vector<double>& values) {
+  const hsize_t rows = values.size(), unlimited = H5S_UNLIMITED;
+  H5::DSetCreatPropList properties;
+  properties.setChunk(1, &samples_per_chunk);
+  const auto dataset =
+      group.createDataSet(column.name, real(), H5::DataSpace(1, &rows, &unlimited), properties);
+  attribute(dataset, "unit", column.unit);
+  if (rows > 0) dataset.write(values.data(), real());
+}
+
 } // namespace
 
 struct ResultFile::Impl {
-  std::filesystem::path path;
-  std::size_t particles;
-  std::optional<H5::H5File> file; ///< from construction to close()
-  std::vector<H5::DataSet> series;
-  hsize_t samples = 0;
-  std::size_t radii = 0;
-  int snapshots = 0;
-  std::string xdmf_grids;
+  std::filesystem::path path, parts;
+  ResultHeader header;
+  std::vector<Quantity> columns;
+  std::vector<double> radii;
+  std::map<std::string, std::pair<std::string, double>> summary; ///< unit and value by name
+  ResultProgress done;
+  std::optional<FolderLock> lock;
+  bool closed = false, pending = false; ///< pending: samples that are not on disk
+  Clock::time_point written;
+  Clock::duration cost{};
+
+  Impl(const std::filesystem::path& result, const ResultHeader& head, const std::vector<Quantity>& series)
+      : path(result), parts(parts_folder(result)), header(head), columns(series) {
+    H5::Exception::dontPrint();
+    require_writable(path);
+    std::error_code error;
+    std::filesystem::create_directory(parts, error);
+    if (error)
+      throw std::runtime_error(
+          fmt::format("{}: cannot create the folder of its snapshots ({})", path.string(), error.message()));
+    lock.emplace(parts, path);
+    done.columns = columns;
+    done.series.resize(columns.size());
+  }
 
   void guarded(const std::string& what, const std::function<void()>& write) const {
-    guarded_write(path, what, write);
+    guarded_write(path, what, [&] {
+      if (closed) throw std::invalid_argument("the file is closed");
+      write();
+    });
   }
 
-  const H5::H5File& h5() const {
-    if (!file) throw std::invalid_argument("the file is closed");
-    return *file;
+  std::string name_of(int snapshot) const { return fmt::format(snapshot_name, snapshot); }
+  std::filesystem::path part(const std::string& name) const { return parts / (name + ".h5"); }
+
+  /// Writes one group, `name`, as a file of its own.
+  void write_part(const std::string& name, const std::function<void(const H5::Group&)>& fill) const {
+    const auto file = memory_file();
+    fill(file.createGroup(name));
+    write_whole(part(name), file_image(file));
   }
 
-  void flush() const { h5().flush(H5F_SCOPE_GLOBAL); }
+  /// All but snapshots and constants.
+  void write_head(const H5::H5File& file, bool complete) const {
+    attribute(file, "format_version", format_version);
+    attribute(file, "simsand_version", header.version);
+    attribute(file, "compiler", header.compiler);
+    attribute(file, "geometry", header.geometry);
+    attribute(file, "dimension", header.dimension);
+    attribute(file, "complete", int(complete));
+    const auto text = text_type(header.scene);
+    file.createDataSet("scene", text, H5::DataSpace(H5S_SCALAR)).write(header.scene, text);
+    const auto series = file.createGroup("series"), totals = file.createGroup("summary");
+    for (std::size_t c = 0; c < columns.size(); ++c) write_column(series, columns[c], done.series[c]);
+    for (const auto& [name, entry] : summary) {
+      const auto dataset = totals.createDataSet(name, real(), H5::DataSpace(H5S_SCALAR));
+      attribute(dataset, "unit", entry.first);
+      dataset.write(&entry.second, real());
+    }
+    const auto outline = file.createGroup("outline");
+    if (!radii.empty()) write_dataset(outline, "r", "m", radii);
+    file.createGroup("snapshots");
+  }
+
+  /// Replaces the result by one that links to the parts.
+  void write_links() {
+    const auto start = Clock::now();
+    const auto file = memory_file();
+    write_head(file, false);
+    const auto link = [&](const std::string& name, const std::string& at) {
+      const auto target = (parts.filename() / (name + ".h5")).string();
+      if (H5Lcreate_external(target.c_str(), ("/" + name).c_str(), file.getId(), at.c_str(), H5P_DEFAULT,
+                             H5P_DEFAULT) < 0)
+        throw H5::FileIException("H5Lcreate_external", "no link to " + target);
+    };
+    link(constants, constants);
+    for (int s = 0; s < done.snapshots; ++s) link(name_of(s), "snapshots/" + name_of(s));
+    write_whole(path, file_image(file));
+    pending = false;
+    written = Clock::now();
+    cost = written - start;
+  }
+
+  /// Bytes of the joined file, at most.
+  std::uintmax_t joined_size() const {
+    std::uintmax_t size = std::filesystem::file_size(path) + (1 << 16);
+    for (const auto& file : std::filesystem::directory_iterator(parts)) size += file.file_size();
+    return size;
+  }
+
+  /// Replaces the result by one that holds the parts.
+  void join() const {
+    require_room(path, joined_size()); // HDF5 crashes where it cannot close a file
+    {
+      H5::FileAccPropList access;
+      H5Pset_file_locking(access.getId(), true, true); // where the disk knows no locks, go without
+      const H5::H5File file(aside(path).string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, access);
+      write_head(file, true);
+      const auto copy = [&](const std::string& name, const std::string& at) {
+        if (H5Ocopy(open_to_read(part(name)).getId(), name.c_str(), file.getId(), at.c_str(), H5P_DEFAULT,
+                    H5P_DEFAULT) < 0)
+          throw H5::FileIException("H5Ocopy", "no copy of " + part(name).string());
+      };
+      copy(constants, constants);
+      for (int s = 0; s < done.snapshots; ++s) copy(name_of(s), "snapshots/" + name_of(s));
+      file.flush(H5F_SCOPE_GLOBAL);
+    }
+    take_place(path);
+  }
+
+  /// What is in a part must be readable before a run builds on it.
+  void require_part(const std::string& name) const {
+    try {
+      open_to_read(part(name)).openGroup(name);
+    } catch (const H5::Exception&) {
+      throw std::runtime_error(fmt::format("{}: missing or not readable; without it the run cannot be "
+                                           "continued",
+                                           part(name).string()));
+    }
+  }
 };
 
 ResultFile::ResultFile(const std::filesystem::path& path, const ResultHeader& header,
                        const std::vector<Quantity>& series)
-    : impl(new Impl{path, header.particles, {}, {}, 0, 0, 0, {}}) {
-  H5::Exception::dontPrint();
-  require_writable(path);
-  impl->guarded("the header", [&] {
-    H5::FileAccPropList access;
-    H5Pset_file_locking(access.getId(), true, true); // where the disk knows no locks, go without
-    impl->file.emplace(path.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, access);
-    attribute(impl->h5(), "format_version", format_version);
-    attribute(impl->h5(), "simsand_version", header.version);
-    attribute(impl->h5(), "compiler", header.compiler);
-    attribute(impl->h5(), "geometry", header.geometry);
-    attribute(impl->h5(), "dimension", header.dimension);
-    attribute(impl->h5(), "complete", 0);
-    const auto text = text_type(header.scene);
-    impl->h5().createDataSet("scene", text, H5::DataSpace(H5S_SCALAR)).write(header.scene, text);
-    for (const char* group : {"particles", "outline", "snapshots", "series", "summary"})
-      impl->h5().createGroup(group);
+    : impl(new Impl(path, header, series)) {
+  std::error_code ignored;
+  for (const auto& old : std::filesystem::directory_iterator(impl->parts))
+    std::filesystem::remove(old.path(), ignored);
+  particles({});
+  impl->guarded("the header", [&] { impl->write_links(); });
+  write_xdmf(xdmf_path(), impl->done.xdmf);
+}
 
-    std::vector<std::int64_t> number(header.particles);
-    std::iota(number.begin(), number.end(), 0);
-    const hsize_t count = header.particles;
-    impl->h5()
-        .createDataSet("particles/number", H5::PredType::NATIVE_INT64, H5::DataSpace(1, &count))
-        .write(number.data(), H5::PredType::NATIVE_INT64);
-
-    const hsize_t none = 0, unlimited = H5S_UNLIMITED;
-    H5::DSetCreatPropList properties;
-    properties.setChunk(1, &samples_per_chunk);
-    for (const Quantity& column : series) {
-      impl->series.push_back(impl->h5().createDataSet("series/" + column.name, real(),
-                                                      H5::DataSpace(1, &none, &unlimited), properties));
-      attribute(impl->series.back(), "unit", column.unit);
-    }
-    impl->flush();
-  });
-  write_xdmf(xdmf_path(), impl->xdmf_grids);
+ResultFile::ResultFile(const std::filesystem::path& path, const ResultHeader& header,
+                       const std::vector<Quantity>& series, const ResultProgress& progress)
+    : impl(new Impl(path, header, series)) {
+  impl->require_part(constants);
+  for (int s = 0; s < progress.snapshots; ++s) impl->require_part(impl->name_of(s));
+  impl->done = progress;
+  impl->done.columns = series;
+  impl->done.series.resize(series.size());
+  impl->pending = true; // with the outline's radii, or later
+  write_xdmf(xdmf_path(), impl->done.xdmf);
 }
 
 ResultFile::~ResultFile() {
   const QuietDestructors quiet;
+  try {
+    if (!impl->closed && impl->pending) impl->write_links();
+  } catch (...) {} // the error that led here is on its way
   impl.reset();
 }
 
 void ResultFile::particles(std::span<const Field> fields, std::span<const std::int32_t> original) {
   impl->guarded("/particles", [&] {
-    const auto values = in_original_order(fields, original, impl->particles);
-    write_fields(impl->h5().openGroup("particles"), fields, values);
-    impl->flush();
+    const auto values = in_original_order(fields, original, impl->header.particles);
+    impl->write_part(constants, [&](const H5::Group& group) {
+      std::vector<std::int64_t> number(impl->header.particles);
+      std::iota(number.begin(), number.end(), 0);
+      const hsize_t count = number.size();
+      group.createDataSet("number", H5::PredType::NATIVE_INT64, H5::DataSpace(1, &count))
+          .write(number.data(), H5::PredType::NATIVE_INT64);
+      write_fields(group, fields, values);
+    });
   });
 }
 
 void ResultFile::outline_radii(std::span<const double> radii) {
-  impl->guarded("/outline", [&] {
-    write_dataset(impl->h5().openGroup("outline"), "r", "m", {radii.begin(), radii.end()});
-    impl->radii = radii.size();
-    impl->flush();
-  });
+  impl->radii.assign(radii.begin(), radii.end());
+  impl->guarded("/outline", [&] { impl->write_links(); });
 }
 
 void ResultFile::snapshot(double time, std::span<const Field> fields, std::span<const std::int32_t> original,
                           std::span<const double> outline) {
-  const std::string name = fmt::format("/snapshots/{:04d}", impl->snapshots);
-  impl->guarded(name, [&] {
+  const std::string name = impl->name_of(impl->done.snapshots);
+  impl->guarded("/snapshots/" + name, [&] {
     if (std::none_of(fields.begin(), fields.end(), [](const Field& f) { return f.name == "position"; }))
       throw std::invalid_argument("no position among its fields");
-    if (!outline.empty() && outline.size() != impl->radii)
+    if (!outline.empty() && outline.size() != impl->radii.size())
       throw std::invalid_argument(
-          fmt::format("outline of {} heights for {} radii", outline.size(), impl->radii));
-    const auto values = in_original_order(fields, original, impl->particles);
-    const auto group = impl->h5().createGroup(name);
-    write_fields(group, fields, values);
-    if (!outline.empty()) write_dataset(group, "outline", "m", {outline.begin(), outline.end()});
-    attribute(group, "time", time); // last: its presence says that the snapshot is whole
-    impl->flush();
+          fmt::format("outline of {} heights for {} radii", outline.size(), impl->radii.size()));
+    const auto values = in_original_order(fields, original, impl->header.particles);
+    impl->write_part(name, [&](const H5::Group& group) {
+      write_fields(group, fields, values);
+      if (!outline.empty()) write_dataset(group, "outline", "m", {outline.begin(), outline.end()});
+      attribute(group, "time", time);
+    });
+    ++impl->done.snapshots;
+    impl->write_links();
   });
-  ++impl->snapshots;
-  impl->xdmf_grids += xdmf_grid(impl->path.filename().string(), name, time, impl->particles, fields);
-  write_xdmf(xdmf_path(), impl->xdmf_grids);
+  impl->done.xdmf +=
+      xdmf_grid(impl->path.filename().string(), "/snapshots/" + name, time, impl->header.particles, fields);
+  write_xdmf(xdmf_path(), impl->done.xdmf);
 }
 
 void ResultFile::sample(std::span<const double> row) {
   impl->guarded("/series", [&] {
-    if (row.size() != impl->series.size())
-      throw std::invalid_argument(fmt::format("{} values for {} columns", row.size(), impl->series.size()));
-    const hsize_t length = impl->samples + 1, one = 1;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      impl->series[c].extend(&length);
-      auto target = impl->series[c].getSpace();
-      target.selectHyperslab(H5S_SELECT_SET, &one, &impl->samples);
-      impl->series[c].write(&row[c], real(), H5::DataSpace(1, &one), target);
-    }
-    impl->flush();
+    if (row.size() != impl->columns.size())
+      throw std::invalid_argument(fmt::format("{} values for {} columns", row.size(), impl->columns.size()));
+    for (std::size_t c = 0; c < row.size(); ++c) impl->done.series[c].push_back(row[c]);
+    impl->pending = true;
+    if (Clock::now() - impl->written > 20 * impl->cost) impl->write_links();
   });
-  ++impl->samples;
 }
 
 void ResultFile::summary(const Quantity& quantity, double value) {
-  impl->guarded("/summary/" + quantity.name, [&] {
-    const auto group = impl->h5().openGroup("summary");
-    if (group.nameExists(quantity.name)) group.unlink(quantity.name);
-    const auto dataset = group.createDataSet(quantity.name, real(), H5::DataSpace(H5S_SCALAR));
-    attribute(dataset, "unit", quantity.unit);
-    dataset.write(&value, real());
-    impl->flush();
+  impl->guarded("/summary/" + quantity.name, [&] { impl->summary[quantity.name] = {quantity.unit, value}; });
+}
+
+void ResultFile::flush() {
+  impl->guarded("/series", [&] {
+    if (impl->pending) impl->write_links();
   });
 }
 
+ResultProgress ResultFile::progress() const {
+  return impl->done;
+}
+
 void ResultFile::close() {
-  impl->guarded("the mark of completeness", [&] {
-    const int complete = 1;
-    impl->h5().openAttribute("complete").write(H5::PredType::NATIVE_INT, &complete);
-    impl->flush();
-    impl->series.clear();
-    impl->file.reset();
-  });
+  std::error_code ignored;
+  try {
+    impl->guarded("the joined snapshots", [&] { impl->join(); });
+  } catch (...) {
+    std::filesystem::remove(aside(impl->path), ignored);
+    throw;
+  }
+  impl->closed = true;
+  std::filesystem::remove_all(impl->parts, ignored);
+  impl->lock.reset();
 }
 
 const std::filesystem::path& ResultFile::path() const {
@@ -173,6 +283,11 @@ std::filesystem::path ResultFile::xdmf_path() const {
   return path.replace_extension(".xdmf");
 }
 
+std::filesystem::path parts_folder(const std::filesystem::path& result) {
+  auto path = result;
+  return path.replace_extension(".parts");
+}
+
 std::string stored_scene(const std::filesystem::path& path) {
   H5::Exception::dontPrint();
   std::error_code error;
@@ -180,7 +295,7 @@ std::string stored_scene(const std::filesystem::path& path) {
     throw std::runtime_error(fmt::format("{}: no such file", path.string()));
   try {
     std::string scene;
-    const auto dataset = H5::H5File(path.string(), H5F_ACC_RDONLY).openDataSet("scene");
+    const auto dataset = open_to_read(path).openDataSet("scene");
     dataset.read(scene, dataset.getStrType());
     return scene;
   } catch (const H5::Exception&) {

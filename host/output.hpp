@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The result of a run: one HDF5 file and an XDMF side file with which ParaView opens it. The schema is
-// in host/OUTPUT.md. Every snapshot and every sample is on disk when its call returns, so whatever was
-// computed stays readable when the run ends early, by an exception or by a signal.
+// in host/OUTPUT.md. No file is ever changed in place: while the run goes on, each snapshot is a file of
+// its own in a folder beside the result, which links to them and is replaced as a whole whenever a snapshot
+// or samples are added; close() joins them. Whatever ends the run, the result on disk is readable.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -33,12 +34,24 @@ struct Field {
   std::vector<std::span<const double>> components;
 };
 
+/// How far a result file has come: what a run needs in order to continue it.
+struct ResultProgress {
+  std::vector<Quantity> columns;
+  std::vector<std::vector<double>> series; ///< one per column
+  int snapshots = 0;
+  std::string xdmf; ///< of these snapshots
+};
+
 /// Throws std::runtime_error with one line that names the file, whatever goes wrong.
 class ResultFile {
 public:
   /// Creates missing folders and the file (an older one is replaced), writes the header.
   ResultFile(const std::filesystem::path& path, const ResultHeader& header,
              const std::vector<Quantity>& series);
+  /// Continues a file from `progress`: what was written after that is dropped. The snapshots up to there and
+  /// the constant particle data must be in the folder beside it.
+  ResultFile(const std::filesystem::path& path, const ResultHeader& header,
+             const std::vector<Quantity>& series, const ResultProgress& progress);
   /// Closes without the mark of completeness.
   ~ResultFile();
 
@@ -51,11 +64,15 @@ public:
   /// particle i. `outline` is the surface height at the outline's radii, m, or empty.
   void snapshot(double time, std::span<const Field> fields, std::span<const std::int32_t> original = {},
                 std::span<const double> outline = {});
-  /// One row of the time series, a value for each column.
+  /// One row of the time series, a value for each column. On disk with the next snapshot or `flush`, or
+  /// before, as long as writing takes no more than a twentieth of the time.
   void sample(std::span<const double> row);
   /// A scalar result; a second value under the same name replaces the first.
   void summary(const Quantity& quantity, double value);
-  /// Marks the run as complete and closes both files.
+  /// Brings all samples to disk.
+  void flush();
+  ResultProgress progress() const;
+  /// Joins the snapshots to one file, marks the run as complete and closes both files.
   void close();
 
   const std::filesystem::path& path() const;
@@ -66,7 +83,10 @@ private:
   std::unique_ptr<Impl> impl;
 };
 
-/// The resolved scene in a result file. Throws std::runtime_error naming the file.
+/// The folder of the snapshots of a run that is not complete: NAME.parts beside NAME.h5.
+std::filesystem::path parts_folder(const std::filesystem::path& result);
+
+/// The resolved scene in a result file or checkpoint. Throws std::runtime_error naming the file.
 std::string stored_scene(const std::filesystem::path& path);
 
 } // namespace host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particle data, structure of arrays, split by lifetime. Arrays are padded to a multiple of `lanes`
-// and kept in Morton order, so that lanes of one cluster are neighbours in space.
+// and kept sorted in space, so that lanes of one cluster are neighbours in space.
 #pragma once
 #include "host/lane.hpp"
 #include <Eigen/Core>
@@ -30,6 +30,9 @@ template <class Geometry> struct Particles {
   Array internal_energy, inelastic_energy; ///< J/kg
   std::array<Array, S> stress_diffusion;   ///< Pa/s, added at the next stress update
   Array wave_speed;                        ///< m/s
+  Array checked_square;                    ///< Pa2, square of the stress for which it was found
+  /// F in the non-symmetric order of the VUMAT; empty unless the material asks for it (corotational.hpp).
+  std::vector<Array> deformation_gradient;
 
   // Per step: written by one stage, read by the next.
   std::array<Array, D * D> velocity_gradient; ///< 1/s, component a * D + b is d v_a / d x_b
@@ -39,10 +42,12 @@ template <class Geometry> struct Particles {
   template <class F> void each_persistent(F&& f) {
     for (auto* group : {&position, &velocity, &initial_position})
       for (auto& a : *group) f(a);
-    for (auto* a : {&mass, &density, &internal_energy, &inelastic_energy, &wave_speed}) f(*a);
+    for (auto* a : {&mass, &density, &internal_energy, &inelastic_energy, &wave_speed, &checked_square})
+      f(*a);
     for (auto* group : {&stress, &stress_diffusion})
       for (auto& a : *group) f(a);
     for (auto& a : state) f(a);
+    for (auto& a : deformation_gradient) f(a);
   }
 
   /// Sizes all arrays for `n` particles and `state_variables`, filled with zeros.

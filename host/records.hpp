@@ -3,6 +3,7 @@
 // that a pair is broadcasts from one or two cache lines. Particles come first, in the order of the
 // particle arrays; their mirror images follow.
 #pragma once
+#include "host/geometry.hpp"
 #include "host/particles.hpp"
 
 namespace host {
@@ -26,6 +27,17 @@ template <class Geometry> struct StressRecord {
   double flux[S];           ///< weight * stress, Pa (or Pa m)
   double gradient[D * D];   ///< of velocity, 1/s
   double reduced_stress[S]; ///< stress less the geostatic part, Pa; what diffusion acts on
+};
+
+/// The same in three dimensions: no weight, and of the velocity gradient only what the viscosity needs.
+template <> struct StressRecord<ThreeDimensional> {
+  double position[3];
+  double velocity[3];
+  double volume;
+  double density;        ///< kg/m3
+  double damping_speed;  ///< m/s
+  double flux[6];        ///< stress, Pa
+  double strain_rate[6]; ///< 1/s, in the order of the VUMAT, shear as the sum of both gradients
 };
 
 template <class Geometry> struct Records {

@@ -9,7 +9,20 @@
 
 namespace host {
 
-enum class GeometryKind { plane_strain, axisymmetric };
+enum class GeometryKind { plane_strain, axisymmetric, three_dimensional };
+
+/// What part of a cylinder is simulated in three dimensions: all of it, x >= 0, or x >= 0 and y >= 0.
+enum class Sector { full, half, quarter };
+
+/// Number of vertical planes of symmetry: x = 0, then y = 0.
+inline int symmetry_planes(Sector sector) {
+  return sector == Sector::full ? 0 : (sector == Sector::half ? 1 : 2);
+}
+
+/// Part of the whole cylinder.
+inline double fraction(Sector sector) {
+  return 1.0 / (1 << symmetry_planes(sector));
+}
 
 /// A column of radius (plane strain: half width) `radius` that stands on the floor at height 0,
 /// symmetric about the axis at coordinate 0.
@@ -25,7 +38,7 @@ struct Floor {
 
 enum class GateMotion { fixed, lift, remove };
 
-/// Rigid, frictionless retaining wall at coordinate `Column::radius`.
+/// Rigid, frictionless retaining wall at coordinate `Column::radius`; in three dimensions a cylinder.
 struct Gate {
   GateMotion motion = GateMotion::lift;
   double speed = 0; ///< m/s, upwards
@@ -39,18 +52,20 @@ struct Gate {
 
 /// Numerical choices; their effect is measured, the defaults are the recommended ones.
 struct Numerics {
-  double smoothing_length = 1.5; ///< in spacings
-  double viscosity = 0.05;       ///< alpha of the artificial viscosity: times the wave speed
-  double flow_viscosity = 25;    ///< beta: times smoothing length and velocity gradient
-  double stress_diffusion = 5;   ///< in smoothing lengths squared per unit strain
-  double step_factor = 0.4;      ///< step = factor * h / (wave speed + flow speed)
-  double skin = 0.4;             ///< of the neighbour lists, in spacings
+  double smoothing_length = 1.5;   ///< in spacings
+  double viscosity = 0.05;         ///< alpha of the artificial viscosity: times the wave speed
+  double flow_viscosity = 25;      ///< beta: times smoothing length and velocity gradient
+  double stress_diffusion = 5;     ///< in smoothing lengths squared per unit strain
+  double step_factor = 0.4;        ///< step = factor * h / (wave speed + flow speed)
+  double wave_speed_tolerance = 0; ///< change of stress up to which a wave speed is kept, relative
+  double skin = 0.4;               ///< of the neighbour lists, in spacings
 };
 
 struct Scene {
   GeometryKind geometry = GeometryKind::axisymmetric;
-  double spacing = 0; ///< m, initial distance of particles
-  double gravity = 0; ///< m/s2
+  Sector sector = Sector::full; ///< of a three-dimensional column
+  double spacing = 0;           ///< m, initial distance of particles
+  double gravity = 0;           ///< m/s2
   Column column;
   Material material;
   std::vector<std::string> state_names; ///< one for each state variable
@@ -66,7 +81,8 @@ struct Scene {
   double rest_fraction = 0;   ///< at rest when kinetic energy / initial potential energy is below it
   double sample_interval = 0; ///< s
   double snapshot_interval = 0;
-  double grain_diameter = 0; ///< m: the front is where the deposit is this high
+  double checkpoint_interval = 60; ///< s of wall clock
+  double grain_diameter = 0;       ///< m: the front is where the deposit is this high
   std::string output_folder;
   std::string resolved; ///< the scene file with every key written out
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/simulation.hpp"
+#include "host/corotational.hpp"
 #include "host/geometry.hpp"
+#include "host/guard.hpp"
 #include "host/lattice.hpp"
 #include <chrono>
 #include <fmt/format.h>
@@ -21,28 +23,24 @@ template <class Geometry> void show_all_motion(Simulation<Geometry>& s) {
   reflect_motion(s.images, s.mirrors, s.records);
 }
 
+template <class Geometry> double list_reach(const Simulation<Geometry>& s) {
+  return s.kernel.support + s.scene.numerics.skin * s.scene.spacing;
+}
+
 template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
-  const double skin = s.scene.numerics.skin * s.scene.spacing, reach = s.kernel.support + skin;
   move_gate(s.mirrors, s.scene, s.time);
-  if (s.rebuilds == 0 || largest_displacement(s.particles, s.listed_position) > 0.5 * skin) {
-    sort_particles(s.particles, 0.25 * s.scene.spacing);
-    s.images = find_images(s.particles, s.mirrors, reach);
-    const std::size_t size = s.particles.padded() + s.images.list.size();
-    s.records.motion.resize(size);
-    s.records.stress.resize(size);
-    show_all_motion(s);
-    find_neighbours(s.particles, s.images, s.records, reach, s.lists);
-    s.listed_position = s.particles.position;
-    ++s.rebuilds;
-  } else
+  const double half_skin = 0.5 * s.scene.numerics.skin * s.scene.spacing;
+  if (s.rebuilds == 0 || largest_displacement(s.particles, s.listed_position) > half_skin)
+    update_lists(s);
+  else
     show_all_motion(s);
 }
 
 /// Step from the current wave speed. It shrinks at once and grows slowly: a deposit that opens up for a
 /// moment shows no wave, and stiffens again within a few steps.
 template <class Geometry> void choose_step(Simulation<Geometry>& s) {
-  constexpr double growth = 1.02, smallest = 1e-4; // of the step before; of the first step
-  update_wave_speed(s.particles, s.scene.material, s.blocks);
+  constexpr double growth = 1.02, smallest = 1e-3; // of the step before; of the first step
+  update_wave_speed(s.particles, s.scene.material, s.blocks, s.steps);
   double fastest = 0;
   int at = 0;
   for (int i = 0; i < s.particles.count; ++i) {
@@ -53,15 +51,17 @@ template <class Geometry> void choose_step(Simulation<Geometry>& s) {
     fastest = speed;
     at = i;
   }
+  fastest *= 1 + 0.5 * s.scene.numerics.wave_speed_tolerance; // a modulus grows at most with the stress
   const double wanted = s.scene.numerics.step_factor * s.kernel.h / fastest;
   s.dt = s.steps == 0 ? wanted : std::min(wanted, growth * s.dt);
   if (s.steps == 0) s.first_dt = s.dt;
+  std::array<double, Geometry::dimension> place;
+  for (std::size_t a = 0; a < place.size(); ++a) place[a] = s.particles.position[a][at];
   if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt))
     throw std::runtime_error(fmt::format(
         "the motion became unstable at time {:.9g} s: the step fell to {:.3g} s (first: {:.3g} s), "
-        "particle {} at ({:.6g}, {:.6g}) m has wave and flow speeds of {:.3g} m/s together",
-        s.time, s.dt, s.first_dt, s.particles.id[at], s.particles.position[0][at],
-        s.particles.position[1][at], fastest));
+        "particle {} at ({:.6g}) m has wave and flow speeds of {:.3g} m/s together",
+        s.time, s.dt, s.first_dt, s.particles.id[at], fmt::join(place, ", "), fastest));
 }
 
 template <class Geometry> void show_all_stress(Simulation<Geometry>& s) {
@@ -78,6 +78,10 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   s.mirrors = scene_mirrors(scene);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
   s.blocks.failure_state = scene.failure_state;
+  s.blocks.tolerance = scene.numerics.wave_speed_tolerance;
+  if (scene.material.frame == Frame::green_naghdi) carry_deformation(s.particles);
+  // The data check comes first, with initial stress and state in place; its answer is thrown away.
+  update_wave_speed(s.particles, scene.material, s.blocks);
   // An increment without strain, so that the material's own initial state is there from the start.
   constexpr double instant = 1e-12; // s
   update_stress(s.particles, scene.material, {instant, instant, instant}, s.blocks);
@@ -85,17 +89,49 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   return s;
 }
 
+template <class Geometry> void update_lists(Simulation<Geometry>& s) {
+  sort_particles(s.particles, 0.25 * s.scene.spacing);
+  s.images = find_images(s.particles, s.mirrors, list_reach(s));
+  const std::size_t size = s.particles.padded() + s.images.list.size();
+  s.records.motion.resize(size);
+  s.records.stress.resize(size);
+  show_all_motion(s);
+  find_neighbours(s.particles, s.images, s.records, list_reach(s), s.lists);
+  s.listed_position = s.particles.position;
+  ++s.rebuilds;
+}
+
+template <class Geometry> Memory memory_of(const Simulation<Geometry>& simulation) {
+  auto s = simulation; // `each_persistent` hands out what may be changed
+  auto& p = s.particles;
+  std::size_t numbers = 0;
+  const auto count = [&](const auto& array) { numbers += array.size(); };
+  p.each_persistent(count);
+  for (const auto& group : {&p.stress_acceleration, &p.viscous_acceleration, &p.wall_acceleration})
+    std::ranges::for_each(*group, count);
+  std::ranges::for_each(p.velocity_gradient, count);
+  std::ranges::for_each(s.listed_position, count);
+  Memory memory;
+  memory.data = numbers * sizeof(double) + p.id.size() * sizeof(int) +
+                s.records.motion.size() * sizeof(s.records.motion[0]) +
+                s.records.stress.size() * sizeof(s.records.stress[0]) + s.images.list.size() * sizeof(Image);
+  memory.lists = (s.lists.entries.size() + s.lists.interior.size() + s.lists.total.size()) * sizeof(int);
+  return memory;
+}
+
 template <class Geometry> void step(Simulation<Geometry>& s) {
   timed(s, Stage::neighbours, [&] { update_neighbours(s); });
   timed(s, Stage::wave_speed, [&] { choose_step(s); });
-  timed(s, Stage::gradient, [&] { update_gradient(s.particles, s.kernel, s.lists, s.records); });
+  timed(s, Stage::gradient, [&] {
+    update_gradient(s.particles, s.kernel, s.lists, s.records);
+    check_strain(s.particles, s.time, s.dt);
+  });
   const Increment increment{s.time + s.dt, s.time + s.dt, s.dt};
   timed(s, Stage::stress, [&] {
     update_stress(s.particles, s.scene.material, increment, s.blocks);
     show_all_stress(s);
   });
-  timed(s, Stage::momentum,
-        [&] { update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene.numerics); });
+  timed(s, Stage::momentum, [&] { update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene); });
   timed(s, Stage::integrate,
         [&] { s.work.add(integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt)); });
   s.time += s.dt;
@@ -105,7 +141,15 @@ template <class Geometry> void step(Simulation<Geometry>& s) {
 
 template Simulation<PlaneStrain> start_simulation(const Scene&);
 template Simulation<Axisymmetric> start_simulation(const Scene&);
+template Simulation<ThreeDimensional> start_simulation(const Scene&);
+template void update_lists(Simulation<PlaneStrain>&);
+template void update_lists(Simulation<Axisymmetric>&);
+template void update_lists(Simulation<ThreeDimensional>&);
+template Memory memory_of(const Simulation<PlaneStrain>&);
+template Memory memory_of(const Simulation<Axisymmetric>&);
+template Memory memory_of(const Simulation<ThreeDimensional>&);
 template void step(Simulation<PlaneStrain>&);
 template void step(Simulation<Axisymmetric>&);
+template void step(Simulation<ThreeDimensional>&);
 
 } // namespace host

@@ -36,6 +36,16 @@ template <class Geometry> struct Simulation {
 /// The scene at time 0. Throws std::runtime_error for a scene without particles.
 template <class Geometry> Simulation<Geometry> start_simulation(const Scene& scene);
 
+/// Sorts the particles and finds images and neighbours anew; `step` does so whenever a particle has moved half
+/// the skin.
+template <class Geometry> void update_lists(Simulation<Geometry>& simulation);
+
+/// Bytes of all particle data, records and images, and of the neighbour lists.
+struct Memory {
+  std::size_t data = 0, lists = 0;
+};
+template <class Geometry> Memory memory_of(const Simulation<Geometry>& simulation);
+
 /// One step. Throws std::runtime_error if the material fails.
 template <class Geometry> void step(Simulation<Geometry>& simulation);
 

@@ -165,9 +165,12 @@ Slopes<Real> slopes(const MaterialOf<Real>& m, Real e, const Pressure<Real>& p, 
   return at_angle(M, sin3theta);
 }
 
+/// Largest change of ln (e_c / e) that `denser_by` sees: with n_p, n_d <= 20 tangents stay positive.
+inline constexpr double largest_series_change = 0.04;
+
 /// Slopes, but for their Lode angle, after a small change of ln (e_c / e).
 template <class Real> Slopes<Real> denser_by(const MaterialOf<Real>& m, Slopes<Real> M, Real change) {
-  const Real bounded = min(max(change, Real(-0.04)), Real(0.04)); // n_p, n_d <= 20: tangents stay positive
+  const Real bounded = min(max(change, Real(-largest_series_change)), Real(largest_series_change));
   M.peak_tangent = M.peak_tangent * (1 + m.given.n_p * bounded);
   M.transformation_tangent = M.transformation_tangent * (1 - m.given.n_d * bounded);
   return M;

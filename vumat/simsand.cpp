@@ -59,9 +59,11 @@ Attempt<Real, N> substep(const Material<Real>& m, const Point<Real, N>& old,
                          const SymmetricTensor<Real, N>& strain) {
   if (old.separation_strain <= 0) return stressed_substep(m, old, strain);
   const Real volumetric = trace(strain), left = volumetric - old.separation_strain;
-  if (left <= 0)
+  if (left <= 0) {
+    const Real gap = std::max(-left, tiny<Real>); // closed exactly, but not loaded: stress free
     return {
-        {{{}, void_ratio_after(old.void_ratio, volumetric), old.plastic_strain, -left}, 0, 0, false, false}};
+        {{{}, void_ratio_after(old.void_ratio, volumetric), old.plastic_strain, gap}, 0, 0, false, false}};
+  }
   const Point<Real, N> closed = {
       {}, void_ratio_after(old.void_ratio, old.separation_strain), old.plastic_strain, 0};
   return stressed_substep(m, closed, scale(left / volumetric, strain));

@@ -67,13 +67,18 @@ Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& ol
   const Real share = mobilised(m, in.eps_d);
   // Slopes by series from those of the start, unless their error could hide which side of the yield surface it is.
   const Real p_ratio = t.pressure.log_ratio - in.start.log_ratio;
-  const Real denser =
-      in.slopes_start.density_change * p_ratio + 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
+  const Real by_pressure = in.slopes_start.density_change * p_ratio,
+             by_void_ratio = 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
+  const Real denser = by_pressure + by_void_ratio;
   t.slopes = at_angle(denser_by(m, in.slopes_start, denser), in.sin3theta);
   Real f = yield_function(t.q, t.pressure.mean_stress, t.slopes.peak, share); // (8)
-  const Real exponent = (m.given.n_p + 1) * abs(denser);
-  const Real doubt = t.pressure.mean_stress * (2 * exponent * (exponent + abs(p_ratio)) + Real(1e-9));
-  if (const Mask<Real> close = !(abs(f) > doubt); !all(!close)) {
+  // What the series leave out grows with either part, though they may cancel, and with the curvature of (3).
+  const Real exponent = (m.given.n_p + 1) * (abs(by_pressure) + abs(by_void_ratio));
+  const Real curvature = m.given.zeta * abs(p_ratio);
+  const Real doubt = t.pressure.mean_stress * (2 * exponent * (exponent + 3 * curvature) + Real(1e-9));
+  const Mask<Real> too_far = (curvature > Real(1)) | (abs(denser) > Real(largest_series_change)) |
+                             !(in.slopes_start.density_change < Real(0)); // e_c at its floor, or lambda = 0
+  if (const Mask<Real> close = (!(abs(f) > doubt)) | too_far; !all(!close)) {
     const auto exact = slopes(m, in.e_end, t.pressure, in.sin3theta);
     f = select(close, yield_function(t.q, t.pressure.mean_stress, exact.peak, share), f);
   }

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the 24 scenes of data/columns/columns.csv and default.toml into this folder."""
+"""Writes the 24 scenes of data/columns/columns.csv, default.toml, and the default column in three
+dimensions, a quarter and the whole, into this folder."""
 import csv
 import pathlib
 
@@ -11,7 +12,7 @@ SCENE = """\
 # Column {shape}, {packing}, aspect ratio {aspect_ratio}: porosity {porosity}, {height_mm} mm high.
 # Written by make_scenes.py from data/columns/columns.csv.
 [scene]
-geometry = "axisymmetric"
+{geometry}
 spacing = 0.002             # m
 gravity = 9.81              # m/s2
 
@@ -42,9 +43,13 @@ grain_diameter = 0.00295    # m, the front is where the deposit is this high
 """
 
 
-def write(name, row):
+AXISYMMETRIC = 'geometry = "axisymmetric"'
+SOLID = 'geometry = "three_dimensional"\nsector = "{}"'
+
+
+def write(name, row, geometry=AXISYMMETRIC):
     height = f"{float(row['height_mm']) / 1000:g}"
-    text = SCENE.format(height=height, folder=name, **row)
+    text = SCENE.format(height=height, folder=name, geometry=geometry, **row)
     (here / f"{name}.toml").write_text(text, encoding="utf-8")
 
 
@@ -55,3 +60,5 @@ for row in rows:
     write(name, row)
     if name == "ts_dense_a1":
         write("default", row)
+        for sector in ("quarter", "full"):
+            write(f"{name}_{sector}", row, SOLID.format(sector))

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of a run: outlines, displacement, height, energy, state. Usage: figures.py RESULT.h5 [-o DIR]"""
+"""Pictures of a run: outlines, displacement, height, energy, state; in three
+dimensions azimuthal means, and a view of the solid. Usage: figures.py RESULT.h5 [-o DIR]"""
 import argparse
 import pathlib
 import sys
@@ -35,7 +36,7 @@ def geometric(ax, run, left, right, top):
     ax.set_ylim(0, top)
     ax.set_xlabel(f"${run.horizontal}$ / mm")
     ax.set_ylabel("$z$ / mm")
-    if run.geometry == "axisymmetric":
+    if run.geometry != "plane_strain":
         ax.xaxis.set_major_formatter(lambda r, _: f"{abs(r):g}")
 
 
@@ -56,11 +57,11 @@ def initial_rectangle(ax, run, both_sides):
 
 def extent(run):
     """Half width and height of the pictures, mm: the deposit at all times, not the last stray particle."""
-    reach = np.percentile(np.abs(run.final["position"][:, 0]), 99)
+    reach = np.percentile(np.abs(run.in_plane(run.final["position"])[:, 0]), 99)
     for snapshot in run.snapshots:
         if snapshot.has("outline"):
             reach = max(reach, *run.radii[snapshot["outline"] > 0], 0)
-    height = max(np.percentile(s["position"][:, 1], 99) for s in run.snapshots)
+    height = max(np.percentile(s["position"][:, -1], 99) for s in run.snapshots)
     return 1.08 * MM * reach, 1.15 * MM * height
 
 
@@ -77,7 +78,7 @@ def geometric_figure(run, both_sides, panels, extra):
 
 
 def note_strays(ax, run):
-    beyond = int((np.abs(MM * run.final["position"][:, 0]) > ax.get_xlim()[1]).sum())
+    beyond = int((np.abs(MM * run.in_plane(run.final["position"])[:, 0]) > ax.get_xlim()[1]).sum())
     text = f"$t$ = {run.final.time:.2f} s"
     if beyond:
         text += f"\n{beyond} of {len(run.initial_position)} particles\nlie further out"
@@ -137,7 +138,8 @@ def level_line(ax, position, values, level, longest):
 
 def displacement(run):
     grain, spacing = MM * run.scene_value("output", "grain_diameter"), MM * run.scene_value("scene", "spacing")
-    position, u = MM * run.final["position"], MM * run.displacement()
+    position, u = run.azimuthal_mean(MM * run.displacement())
+    position = MM * position
     both = np.concatenate([position * [-1, 1], position])
     fig, (ax,) = geometric_figure(run, True, 1, 1.2)
     high = max(np.percentile(u, 98), grain)
@@ -197,8 +199,9 @@ def energy(run):
 
 def state(run):
     spacing = MM * run.scene_value("scene", "spacing")
-    position, stress, e = MM * run.final["position"], run.final["stress"], run.final["state_void_ratio"]
-    pressure = -stress[:, :3].sum(axis=1) / 3
+    position, e = run.azimuthal_mean(run.final["state_void_ratio"])
+    position, pressure = run.azimuthal_mean(-run.final["stress"][:, :3].sum(axis=1) / 3)
+    position = MM * position
     settled = e[pressure > CARRIES_STRESS] if (pressure > CARRIES_STRESS).any() else e
     fig, axes = geometric_figure(run, False, 2, 0.6)
     panels = [(e, "void ratio $e$", "viridis", *np.percentile(settled, [1, 99])),
@@ -210,6 +213,28 @@ def state(run):
         initial_rectangle(ax, run, both_sides=False)
         colour_bar(ax, discs, label)
     axes[0].legend(loc="upper right")
+    return fig
+
+
+def solid(run):
+    """Three dimensions: the deposit seen from outside and above, each particle a disc."""
+    spacing, reach, top = MM * run.scene_value("scene", "spacing"), *extent(run)
+    position, u = MM * run.final["position"], MM * run.displacement()
+    azimuth, elevation = np.radians(40), np.radians(28)
+    towards = np.array([np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation), np.sin(elevation)])
+    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
+    upwards = np.cross(towards, right)
+    near = np.hypot(position[:, 0], position[:, 1]) < reach
+    order = np.flatnonzero(near)[np.argsort(position[near] @ towards)]  # the nearest is drawn last
+    seen = np.column_stack([position[order] @ right, position[order] @ upwards])
+    fig, ax = plt.subplots(figsize=(9, 6))
+    discs = particles(ax, seen, u[order], 1.2 * spacing, "viridis", 0, np.percentile(u, 98))
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+    ax.set_xlim(seen[:, 0].min() - spacing, seen[:, 0].max() + spacing)
+    ax.set_ylim(seen[:, 1].min() - spacing, seen[:, 1].max() + spacing)
+    colour_bar(ax, discs, "displacement / mm")
+    ax.text(0.01, 0.95, f"$t$ = {run.final.time:.2f} s", transform=ax.transAxes, fontsize=9)
     return fig
 
 
@@ -225,7 +250,7 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError, KeyError) as error:
         sys.exit(f"{arguments.result}: {error}".replace("\n", " "))
-    for draw in (outlines, displacement, height, energy, state):
+    for draw in (outlines, displacement, height, energy, state) + ((solid,) if run.dimension == 3 else ()):
         path = folder / f"{draw.__name__}.png"
         try:
             fig = draw(run)

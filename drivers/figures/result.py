@@ -32,8 +32,6 @@ class Result:
             raise ValueError(f"format version {version}, this program reads 1")
         self.geometry = text(self.file.attrs["geometry"])
         self.dimension = int(self.file.attrs["dimension"])
-        if self.dimension != 2:
-            raise ValueError(f"{self.dimension} dimensions: only results of 2 can be drawn")
         self.complete = bool(self.file.attrs["complete"])
         self.scene = tomllib.loads(self.file["scene"].asstr()[()])
         self.initial_position = self.file["particles/initial_position"][()]
@@ -55,11 +53,28 @@ class Result:
     @property
     def horizontal(self):
         """Symbol of the horizontal coordinate."""
-        return "r" if self.geometry == "axisymmetric" else "x"
+        return "x" if self.geometry == "plane_strain" else "r"
 
     @property
     def final(self):
         return self.snapshots[-1]
+
+    def in_plane(self, position):
+        """Horizontal coordinate (three dimensions: distance from the axis) and height of each particle."""
+        if self.dimension == 2:
+            return position
+        return np.column_stack([np.hypot(position[:, 0], position[:, 1]), position[:, 2]])
+
+    def azimuthal_mean(self, values):
+        """Places in the plane at the last snapshot and one value for each. In three dimensions the means over the
+        azimuth: over all particles of a ring of the size of a spacing."""
+        places = self.in_plane(self.final["position"])
+        if self.dimension == 2:
+            return places, values
+        cells = np.floor(places / self.scene_value("scene", "spacing")).astype(int)
+        _, ring, count = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+        mean = lambda quantity: np.bincount(ring.ravel(), weights=quantity) / count
+        return np.column_stack([mean(places[:, 0]), mean(places[:, 1])]), mean(values)
 
     def displacement(self):
         """Length of the displacement of each particle at the last snapshot, m."""

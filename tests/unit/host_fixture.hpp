@@ -13,18 +13,38 @@ inline constexpr double spacing = 0.002; // m
 /// Room for `count` particles and nothing else yet.
 template <class Geometry>
 host::Simulation<Geometry> empty_cloud(int count, const host::Scene& scene = {}, int state_variables = 0) {
-  host::Simulation<Geometry> s{.scene = scene,
-                               .kernel = host::Kernel<2>(scene.numerics.smoothing_length * spacing)};
+  host::Simulation<Geometry> s{
+      .scene = scene, .kernel = host::Kernel<Geometry::dimension>(scene.numerics.smoothing_length * spacing)};
   s.particles.resize(count, state_variables);
   return s;
 }
 
-/// Particle i at `place`, m, with what a square of the lattice holds.
-template <class Geometry> void put(host::Particles<Geometry>& p, int i, const std::array<double, 2>& place) {
+template <class Geometry> using Place = std::array<double, Geometry::dimension>;
+
+/// Particle i at `place`, m, with what a square or cube of the lattice holds.
+template <class Geometry> void put(host::Particles<Geometry>& p, int i, const Place<Geometry>& place) {
   p.id[i] = i;
-  for (int a = 0; a < 2; ++a) p.position[a][i] = place[a];
+  double area = 1;
+  for (int a = 0; a < Geometry::dimension; ++a) {
+    p.position[a][i] = place[a];
+    area *= spacing;
+  }
   p.density[i] = 1500;
-  p.mass[i] = 1500 * spacing * spacing * Geometry::depth * Geometry::weight(place[0]);
+  p.mass[i] = 1500 * area * Geometry::depth * Geometry::weight(place[0]);
+}
+
+/// Particle i of a block of `across` particles in each horizontal direction, counted in spacings from `corner`,
+/// moved by up to `jitter` of a spacing.
+template <class Geometry, class Random>
+Place<Geometry> in_block(int i, int across, double corner, Random& random, double jitter) {
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  Place<Geometry> place;
+  for (int a = 0; a < Geometry::dimension; ++a) {
+    const bool last = a == Geometry::dimension - 1;
+    place[a] = (corner + (last ? i : i % across) + shift(random)) * spacing;
+    i /= across;
+  }
+  return place;
 }
 
 /// Sorts by cells of `cell`, m, and makes the images of what is within `reach`, m, of a mirror.

@@ -9,35 +9,52 @@ namespace {
 using namespace host;
 using namespace host_test;
 
-constexpr double slope[4] = {3, -1.5, 0.7, 2}; // 1/s, d v_a / d x_b in [2 a + b]
+constexpr double slopes[9] = {3, -1.5, 0.7, 2, 0.4, -2.2, 1.1, -0.6, 1.7}; // 1/s, any
 
-/// A disc of disordered particles of uneven volumes, well away from the axis, in a linear velocity field.
-template <class Geometry> Simulation<Geometry> disc() {
+/// d v_a / d x_b of the field.
+template <class Geometry> double slope(int a, int b) {
+  return slopes[Geometry::dimension * a + b];
+}
+
+/// A disc or ball of disordered particles of uneven volumes, well away from the axis, in a linear velocity field.
+template <class Geometry> Simulation<Geometry> ball() {
+  constexpr int D = Geometry::dimension, radius = D == 2 ? 12 : 8;
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> jitter(-0.25, 0.25);
-  std::vector<std::array<double, 2>> places;
-  for (int i = -12; i <= 12; ++i)
-    for (int j = -12; j <= 12; ++j)
-      if (i * i + j * j < 110)
-        places.push_back({(30 + i + jitter(random)) * spacing, (20 + j + jitter(random)) * spacing});
+  std::vector<Place<Geometry>> places;
+  constexpr int across = 2 * radius + 1;
+  for (int n = 0; n < (D == 2 ? across * across : across * across * across); ++n) {
+    const int index[3] = {n % across - radius, n / across % across - radius, n / across / across - radius};
+    int square = 0;
+    for (int a = 0; a < D; ++a) square += index[a] * index[a];
+    if (square >= (radius - 1.5) * (radius - 1.5)) continue;
+    Place<Geometry> place;
+    for (int a = 0; a < D; ++a) place[a] = (30 - 10 * a + index[a] + jitter(random)) * spacing;
+    places.push_back(place);
+  }
   auto s = empty_cloud<Geometry>(int(places.size()));
   auto& p = s.particles;
   for (int i = 0; i < p.count; ++i) {
     put(p, i, places[i]);
-    const auto [x, y] = places[i];
-    for (int a = 0; a < 2; ++a) p.velocity[a][i] = 0.4 + slope[2 * a] * x + slope[2 * a + 1] * y;
+    for (int a = 0; a < D; ++a) {
+      p.velocity[a][i] = 0.4;
+      for (int b = 0; b < D; ++b) p.velocity[a][i] += slope<Geometry>(a, b) * places[i][b];
+    }
     p.mass[i] *= 1 + jitter(random);
   }
   arrange(s, spacing, s.kernel.support);
   return s;
 }
 
+template <class Geometry> using Matrix = Eigen::Matrix<double, Geometry::dimension, Geometry::dimension>;
+
 /// Moment matrix of particle i, from all particles.
-template <class Geometry> Eigen::Matrix2d moment(const Simulation<Geometry>& s, int i) {
+template <class Geometry> Matrix<Geometry> moment(const Simulation<Geometry>& s, int i) {
   const auto& p = s.particles;
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  Matrix<Geometry> sum = Matrix<Geometry>::Zero();
   for (int j = 0; j < p.count; ++j) {
-    const Eigen::Vector2d x(p.position[0][j] - p.position[0][i], p.position[1][j] - p.position[1][i]);
+    Eigen::Matrix<double, Geometry::dimension, 1> x;
+    for (int a = 0; a < Geometry::dimension; ++a) x[a] = p.position[a][j] - p.position[a][i];
     const double area = p.mass[j] / (p.density[j] * Geometry::depth * Geometry::weight(p.position[0][j]));
     sum -= area * s.kernel.gradient_factor(x.norm()) * x * x.transpose();
   }
@@ -45,16 +62,20 @@ template <class Geometry> Eigen::Matrix2d moment(const Simulation<Geometry>& s, 
 }
 
 template <class Geometry> void expect_exact() {
-  auto s = disc<Geometry>();
+  constexpr int D = Geometry::dimension;
+  auto s = ball<Geometry>();
   const auto& p = s.particles;
   find_gradients(s);
   int on_surface = 0;
   for (int i = 0; i < p.count; ++i) {
-    const auto m = moment(s, i);
-    const double mean = 0.5 * m.trace(), smallest = mean - std::sqrt(mean * mean - m.determinant());
-    ASSERT_GT(smallest, 0.25) << "support of particle " << i;
+    Eigen::SelfAdjointEigenSolver<Matrix<Geometry>> solver;
+    const double smallest =
+        solver.computeDirect(moment(s, i), Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+    ASSERT_GT(smallest, least_support) << "support of particle " << i;
     on_surface += smallest < 0.6;
-    for (int e = 0; e < 4; ++e) EXPECT_NEAR(p.velocity_gradient[e][i], slope[e], 1e-11);
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b)
+        EXPECT_NEAR(p.velocity_gradient[D * a + b][i], slope<Geometry>(a, b), 1e-11);
   }
   EXPECT_GT(on_surface, 20);
 }
@@ -62,6 +83,7 @@ template <class Geometry> void expect_exact() {
 TEST(Gradient, IsExactForALinearFieldUpToTheSurface) {
   expect_exact<PlaneStrain>();
   expect_exact<Axisymmetric>();
+  expect_exact<ThreeDimensional>();
 }
 
 TEST(Gradient, OfAGrainInFlightIsZero) {
@@ -96,6 +118,45 @@ TEST(Gradient, InverseOfTheMomentIsShiftedWhereSupportIsMissing) {
   invert_moment(nothing, inverse);
   EXPECT_EQ(inverse[0], 4);
   EXPECT_EQ(inverse[1], 0);
+}
+
+/// Upper triangle of a random matrix with the eigenvalues `values`.
+Eigen::Matrix3d with_eigenvalues(const Eigen::Vector3d& values, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const Eigen::Quaterniond any(normal(random), normal(random), normal(random), normal(random));
+  const Eigen::Matrix3d turn = any.normalized().toRotationMatrix();
+  return turn * values.asDiagonal() * turn.transpose();
+}
+
+void expect_shifted_inverse(const Eigen::Matrix3d& m, double smallest) {
+  const double upper[6] = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
+  double inverse[9];
+  invert_moment(upper, inverse);
+  // Where two eigenvalues are equal, the closed form of the smallest has half the digits.
+  const double tolerance = smallest < least_support ? 1e-6 : 1e-12;
+  const double shift = std::max(least_support - smallest, 0.0);
+  const Eigen::Matrix3d expected = (m + shift * Eigen::Matrix3d::Identity()).inverse();
+  for (int e = 0; e < 9; ++e) EXPECT_NEAR(inverse[e], expected(e / 3, e % 3), tolerance);
+  Lane upper_lanes[6], inverse_lanes[9];
+  for (int e = 0; e < 6; ++e) upper_lanes[e] = upper[e] - Lane{};
+  invert_moment(upper_lanes, inverse_lanes);
+  for (int e = 0; e < 9; ++e) EXPECT_NEAR(inverse_lanes[e][5], inverse[e], tolerance);
+}
+
+TEST(Gradient, InverseOfTheMomentInThreeDimensions) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> eigenvalue(0, 1.2);
+  int shifted = 0;
+  for (int k = 0; k < 300; ++k) {
+    Eigen::Vector3d values(eigenvalue(random), eigenvalue(random), eigenvalue(random));
+    if (k % 3 == 1) values[1] = values[0]; // alone, in a row, in a layer: equal eigenvalues
+    if (k % 3 == 2) values[1] = values[2] = 0;
+    shifted += values.minCoeff() < least_support;
+    expect_shifted_inverse(with_eigenvalues(values, random), values.minCoeff());
+  }
+  EXPECT_GT(shifted, 100);
+  expect_shifted_inverse(Eigen::Matrix3d::Zero(), 0);
+  expect_shifted_inverse(Eigen::Matrix3d::Identity(), 1);
 }
 
 } // namespace

@@ -143,6 +143,77 @@ TEST(Integrate, NothingPassesAxisFloorOrGate) {
   EXPECT_GT(guarded, 1000);
 }
 
+Scene solid_scene(double friction, Sector sector = Sector::quarter) {
+  auto scene = scene_with(friction);
+  scene.geometry = GeometryKind::three_dimensional;
+  scene.sector = sector;
+  return scene;
+}
+
+TEST(Integrate, NothingPassesTheCylinderOrThePlanesOfSymmetry) {
+  const auto scene = solid_scene(0.3);
+  const auto mirrors = scene_mirrors(scene);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> place(0.001, 0.03);
+  std::normal_distribution<double> speed(0, 50); // up to several spacings per step
+  Particles<ThreeDimensional> p;
+  p.resize(503, 0);
+  for (int i = 0; i < p.count; ++i)
+    for (auto& x : p.position) x[i] = place(random);
+  long guarded = 0;
+  for (int n = 0; n < 300; ++n) {
+    for (int i = 0; i < p.count; ++i)
+      for (auto& v : p.velocity) v[i] = speed(random);
+    guarded += advance(p, scene, mirrors).guarded;
+    for (int i = 0; i < p.count; ++i) {
+      // Where a plane meets the cylinder, this draws a particle towards the axis, and nearer to the plane.
+      ASSERT_GT(p.position[0][i], 0);
+      ASSERT_GT(p.position[1][i], 0);
+      ASSERT_GE(p.position[2][i], contact_gap * spacing);
+      ASSERT_LE(std::hypot(p.position[0][i], p.position[1][i]), 0.05 - contact_gap * spacing * (1 - 1e-9));
+    }
+  }
+  EXPECT_GT(guarded, 1000);
+}
+
+TEST(Integrate, TheCylinderTakesTheNormalVelocityOnly) {
+  const auto scene = solid_scene(0.3, Sector::full);
+  Particles<ThreeDimensional> p;
+  p.resize(1, 0);
+  p.mass[0] = p.density[0] = 1;
+  const double angle = 2.2, out[2] = {std::cos(angle), std::sin(angle)},
+               r = 0.05 - (contact_gap + 1e-6) * spacing;
+  p.position[0][0] = r * out[0];
+  p.position[1][0] = r * out[1];
+  p.position[2][0] = 0.02;
+  for (int a = 0; a < 2; ++a) p.velocity[a][0] = 4 * out[a] + (a == 0 ? -3 * out[1] : 3 * out[0]);
+  EXPECT_EQ(advance(p, scene, scene_mirrors(scene)).guarded, 1);
+  const double normal = p.velocity[0][0] * out[0] + p.velocity[1][0] * out[1];
+  EXPECT_NEAR(normal, 0, 0.03) << "the particle has slid along, and the normal turned by 3 dt / r";
+  EXPECT_NEAR(std::hypot(p.velocity[0][0], p.velocity[1][0]), 3, 0.03);
+}
+
+TEST(Integrate, FrictionOpposesTheSlidingInAnyDirection) {
+  const auto scene = solid_scene(0.4, Sector::full);
+  Particles<ThreeDimensional> p;
+  p.resize(1, 0);
+  p.mass[0] = 0.5;
+  p.density[0] = 1500;
+  p.position[2][0] = 0.5 * spacing;
+  p.velocity[0][0] = 0.12;
+  p.velocity[1][0] = -0.16;
+  p.wall_acceleration[2][0] = g;               // the floor carries the weight
+  const auto stop = int(0.2 / (0.4 * g * dt)); // whole steps before it stands
+  Work work;
+  for (int n = 1; n <= stop + 50; ++n) {
+    work.add(advance(p, scene, scene_mirrors(scene)));
+    const double speed = n <= stop ? 0.2 - 0.4 * g * n * dt : 0;
+    ASSERT_NEAR(p.velocity[0][0], 0.6 * speed, 1e-13);
+    ASSERT_NEAR(p.velocity[1][0], -0.8 * speed, 1e-13);
+  }
+  EXPECT_NEAR(work.friction, -0.5 * 0.5 * 0.2 * 0.2, 1e-15);
+}
+
 TEST(Integrate, WorkClosesTheEnergyWithoutGravity) {
   auto scene = scene_with(0.3);
   scene.gravity = 0;

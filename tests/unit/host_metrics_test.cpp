@@ -104,6 +104,55 @@ TEST(Metrics, AStrayGrainIsIgnored) {
   }
 }
 
+const Kernel<3> solid_kernel(1.5 * spacing);
+
+Particles<ThreeDimensional> solid_column(Sector sector) {
+  Scene scene;
+  scene.geometry = GeometryKind::three_dimensional;
+  scene.sector = sector;
+  scene.spacing = spacing;
+  scene.column = {14 * spacing, 8 * spacing};
+  scene.bulk_density = density;
+  return make_column<ThreeDimensional>(scene);
+}
+
+TEST(Metrics, OfACylinderAndItsSectors) {
+  const double wide = 14 * spacing, high = 8 * spacing;
+  const auto radii = outline_radii(spacing, 2 * wide);
+  for (const Sector sector : {Sector::full, Sector::half, Sector::quarter}) {
+    const auto profiles = surface_profiles(solid_column(sector), solid_kernel, radii, sector);
+    EXPECT_EQ(profiles.size(), sector == Sector::full ? 32 : (sector == Sector::half ? 16 : 8));
+    const auto heights = mean_profile(profiles);
+    for (std::size_t k = 0; radii[k] < wide - solid_kernel.support; ++k)
+      EXPECT_NEAR(heights[k], high, (radii[k] < 4 * spacing ? 0.2 : 0.05) * spacing) << "at " << radii[k];
+    const auto front = front_of(profiles, radii, 0.5 * high);
+    EXPECT_NEAR(front.mean, wide, 0.5 * spacing);
+    EXPECT_LT(front.scatter, 0.05 * spacing);
+    const double exact = std::numbers::pi * wide * wide * high * fraction(sector);
+    EXPECT_NEAR(outline_volume<ThreeDimensional>(radii, heights, sector), exact, 0.05 * exact);
+  }
+}
+
+TEST(Metrics, TheFrontOfAnEllipseScattersOverTheAzimuths) {
+  constexpr double stretch = 1.25, wide = 14 * spacing;
+  auto p = solid_column(Sector::full);
+  for (int i = 0; i < p.count; ++i) {
+    p.position[0][i] *= stretch;
+    p.density[i] /= stretch;
+  }
+  const auto radii = outline_radii(spacing, 2 * wide);
+  const auto front = front_of(surface_profiles(p, solid_kernel, radii), radii, 4 * spacing);
+  double sum = 0, squares = 0;
+  for (int k = 0; k < 32; ++k) {
+    const double angle = (k + 0.5) * std::numbers::pi / 16;
+    const double r = wide / std::hypot(std::cos(angle) / stretch, std::sin(angle));
+    sum += r / 32;
+    squares += r * r / 32;
+  }
+  EXPECT_NEAR(front.mean, sum, 0.3 * spacing);
+  EXPECT_NEAR(front.scatter, std::sqrt(squares - sum * sum), 0.1 * spacing);
+}
+
 TEST(Metrics, FrontAndVolumeOfStraightLinesAreExact) {
   const std::vector<double> radii{0, 1, 2, 3, 4}, level{5, 5, 5, 5, 5}, slope{4, 3, 2, 1, 0};
   EXPECT_DOUBLE_EQ(outline_volume<PlaneStrain>(radii, level), 20);

@@ -5,7 +5,9 @@
 #include "host/lattice.hpp"
 #include "host/mirrors.hpp"
 #include "host/simulation.hpp"
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <map>
 
 namespace {
 
@@ -41,7 +43,7 @@ template <class Geometry, class Stress> Simulation<Geometry> standing(const Scen
   update_gradient(p, s.kernel, s.lists, s.records);
   show_stress(p, scene, s.kernel.h, s.records);
   reflect_stress(s.images, s.mirrors, s.records);
-  update_acceleration(p, s.kernel, s.lists, s.records, scene.numerics);
+  update_acceleration(p, s.kernel, s.lists, s.records, scene);
   return s;
 }
 
@@ -195,6 +197,127 @@ TEST(Mirrors, TheGateActsAboveItsEdge) {
   show_motion(lone.p, lone.records);
   lone.reflect();
   EXPECT_EQ(lone.motion(0).volume, 0);
+}
+
+/// A particle of a three-dimensional column and its image in the cylindrical gate.
+TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
+  auto scene = column_scene(GateMotion::fixed);
+  scene.geometry = GeometryKind::three_dimensional;
+  Particles<ThreeDimensional> p;
+  p.resize(1, 0);
+  const double r = radius - 0.7 * spacing, angle = 0.6;
+  const Eigen::Vector3d normal(std::cos(angle), std::sin(angle), 0), velocity(3, -4, 5);
+  const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
+  Eigen::Matrix3d stress, gradient;
+  stress << -1, 0.4, 0.5, 0.4, -2, 0.6, 0.5, 0.6, -3;
+  gradient << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  for (int a = 0; a < 3; ++a) {
+    p.position[a][0] = a < 2 ? r * normal[a] : 10 * spacing;
+    p.velocity[a][0] = velocity[a];
+    for (int b = 0; b < 3; ++b) {
+      p.stress[component<3>(a, b)][0] = stress(a, b);
+      p.velocity_gradient[3 * a + b][0] = gradient(a, b);
+    }
+  }
+  p.density[0] = 1500;
+  p.mass[0] = 1500 * std::pow(spacing, 3);
+  const auto mirrors = scene_mirrors(scene);
+  const auto images = find_images(p, mirrors, reach);
+  ASSERT_EQ(images.list.size(), 1);
+  EXPECT_EQ(images.first_wall, images.first);
+  Records<ThreeDimensional> records;
+  records.motion.resize(p.padded() + 1);
+  records.stress.resize(p.padded() + 1);
+  show_motion(p, records);
+  show_stress(p, scene, 1.5 * spacing, records);
+  reflect_motion(images, mirrors, records);
+  reflect_stress(images, mirrors, records);
+  const auto& motion = records.motion[images.first];
+  const auto& image = records.stress[images.first];
+  const Eigen::Vector3d reflected = reflection * velocity;
+  const Eigen::Matrix3d turned = reflection * stress * reflection,
+                        turned_gradient = reflection * gradient * reflection;
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_NEAR(motion.position[a], a < 2 ? (2 * radius - r) * normal[a] : 10 * spacing, 1e-15);
+    EXPECT_EQ(image.position[a], motion.position[a]);
+    EXPECT_NEAR(motion.velocity[a], reflected[a], 1e-14);
+    EXPECT_EQ(image.velocity[a], motion.velocity[a]);
+    for (int b = a; b < 3; ++b) {
+      const double both = turned_gradient(a, b) + (a == b ? 0 : turned_gradient(b, a));
+      EXPECT_NEAR(image.flux[component<3>(a, b)], turned(a, b), 1e-14);
+      EXPECT_NEAR(image.strain_rate[component<3>(a, b)], both, 1e-13);
+    }
+  }
+  EXPECT_NEAR(motion.volume, std::pow(spacing, 3) * (2 * radius - r) / r, 1e-20);
+  EXPECT_EQ(image.volume, motion.volume);
+}
+
+/// A column in a flow and a stress that are symmetric about the axis.
+Simulation<ThreeDimensional> flowing(Sector sector) {
+  auto scene = column_scene(GateMotion::lift);
+  scene.geometry = GeometryKind::three_dimensional;
+  scene.sector = sector;
+  scene.gravity = 9.81;
+  scene.column = {8 * spacing, 9 * spacing};
+  Simulation<ThreeDimensional> s{.scene = scene,
+                                 .kernel = Kernel<3>(1.5 * spacing),
+                                 .particles = make_column<ThreeDimensional>(scene),
+                                 .mirrors = scene_mirrors(scene)};
+  move_gate(s.mirrors, scene, 3.2 * spacing / scene.gate.speed);
+  auto& p = s.particles;
+  for (int i = 0; i < p.count; ++i) {
+    const double x = p.position[0][i], y = p.position[1][i], z = p.position[2][i], r = std::hypot(x, y);
+    const double outwards = 20 * r * std::cos(300 * r + 200 * z);
+    const Eigen::Vector3d e(x / r, y / r, 0), up(0, 0, 1);
+    const Eigen::Matrix3d stress = -400 * std::cos(200 * z) * e * e.transpose() -
+                                   250 * Eigen::Matrix3d::Identity() -
+                                   6e3 * r * (e * up.transpose() + up * e.transpose());
+    for (int a = 0; a < 3; ++a) {
+      p.velocity[a][i] = outwards * e[a] - (a == 2 ? 3 * z : 0);
+      for (int b = a; b < 3; ++b) p.stress[component<3>(a, b)][i] = stress(a, b);
+    }
+    p.wave_speed[i] = 30;
+  }
+  sort_particles(p, spacing);
+  s.images = find_images(p, s.mirrors, s.kernel.support);
+  s.records.motion.resize(p.padded() + s.images.list.size());
+  s.records.stress.resize(s.records.motion.size());
+  show_motion(p, s.records);
+  reflect_motion(s.images, s.mirrors, s.records);
+  find_neighbours(p, s.images, s.records, s.kernel.support, s.lists);
+  update_gradient(p, s.kernel, s.lists, s.records);
+  show_stress(p, scene, s.kernel.h, s.records);
+  reflect_stress(s.images, s.mirrors, s.records);
+  update_acceleration(p, s.kernel, s.lists, s.records, scene);
+  return s;
+}
+
+TEST(Mirrors, AParticleOfASectorSeesWhatItSeesInTheWhole) {
+  const auto whole = flowing(Sector::full);
+  const auto& w = whole.particles;
+  std::map<std::array<long, 3>, int> at;
+  const auto place = [](const Particles<ThreeDimensional>& p, int i) {
+    return std::array{std::lround(1e7 * p.position[0][i]), std::lround(1e7 * p.position[1][i]),
+                      std::lround(1e7 * p.position[2][i])};
+  };
+  for (int i = 0; i < w.count; ++i) at[place(w, i)] = i;
+  for (const Sector sector : {Sector::half, Sector::quarter}) {
+    const auto part = flowing(sector);
+    const auto& p = part.particles;
+    EXPECT_EQ(p.count * (sector == Sector::half ? 2 : 4), w.count);
+    for (int i = 0; i < p.count; ++i) {
+      ASSERT_TRUE(at.contains(place(p, i)));
+      const int j = at[place(p, i)];
+      for (int e = 0; e < 9; ++e) EXPECT_NEAR(p.velocity_gradient[e][i], w.velocity_gradient[e][j], 1e-9);
+      for (int a = 0; a < 3; ++a) {
+        EXPECT_NEAR(p.stress_acceleration[a][i], w.stress_acceleration[a][j], 1e-9);
+        EXPECT_NEAR(p.viscous_acceleration[a][i], w.viscous_acceleration[a][j], 1e-9);
+        EXPECT_NEAR(p.wall_acceleration[a][i], w.wall_acceleration[a][j], 1e-9);
+      }
+      for (int c = 0; c < 6; ++c) // a rate of some 1e5 Pa/s
+        EXPECT_NEAR(p.stress_diffusion[c][i], w.stress_diffusion[c][j], 1e-7);
+    }
+  }
 }
 
 TEST(Mirrors, ARemovedGateIsNone) {

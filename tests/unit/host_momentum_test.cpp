@@ -20,15 +20,20 @@ Scene scene_without_walls() {
 
 /// A disordered block away from the axis, with random stress and velocity.
 template <class Geometry> Simulation<Geometry> cloud(int columns, int rows, std::uint64_t seed) {
+  constexpr int D = Geometry::dimension;
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> jitter(-0.3, 0.3);
   std::normal_distribution<double> normal;
-  auto s = empty_cloud<Geometry>(columns * rows, scene_without_walls());
+  auto s = empty_cloud<Geometry>(D == 2 ? columns * rows : columns * columns * rows, scene_without_walls());
   auto& p = s.particles;
   for (int i = 0; i < p.count; ++i) {
-    put(p, i, {(20 + i % columns + jitter(random)) * spacing, (20 + i / columns + jitter(random)) * spacing});
-    for (int a = 0; a < 2; ++a) p.velocity[a][i] = normal(random);
-    for (int c = 0; c < 4; ++c) p.stress[c][i] = 1e3 * normal(random);
+    if constexpr (D == 2)
+      put(p, i,
+          {(20 + i % columns + jitter(random)) * spacing, (20 + i / columns + jitter(random)) * spacing});
+    else
+      put(p, i, in_block<Geometry>(i, columns, 20, random, 0.3));
+    for (auto& v : p.velocity) v[i] = normal(random);
+    for (auto& stress : p.stress) stress[i] = 1e3 * normal(random);
     p.density[i] = 1500 * (1 + jitter(random));
     p.wave_speed[i] = 30 * (1 + jitter(random));
   }
@@ -38,15 +43,16 @@ template <class Geometry> Simulation<Geometry> cloud(int columns, int rows, std:
 
 template <class Geometry> void find_forces(Simulation<Geometry>& s) {
   show_stress(s.particles, s.scene, s.kernel.h, s.records);
-  update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene.numerics);
+  update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene);
 }
 
 /// Power of an acceleration, W, and the sum of the absolute parts of it.
 template <class Geometry>
-std::array<double, 2> power(const Particles<Geometry>& p, const std::array<Array, 2>& acceleration) {
+std::array<double, 2> power(const Particles<Geometry>& p,
+                            const std::array<Array, Geometry::dimension>& acceleration) {
   double sum = 0, size = 0;
   for (int i = 0; i < p.count; ++i)
-    for (int a = 0; a < 2; ++a) {
+    for (int a = 0; a < Geometry::dimension; ++a) {
       const double part = p.mass[i] * acceleration[a][i] * p.velocity[a][i];
       sum += part;
       size += std::abs(part);
@@ -54,43 +60,49 @@ std::array<double, 2> power(const Particles<Geometry>& p, const std::array<Array
   return {sum, size};
 }
 
-/// The sum whose adjoint the stress force is: sum_j V_j (v_j - v_i) (x) grad W_ij, component 2 a + b.
-template <class Geometry> std::array<double, 4> gradient_sum(const Simulation<Geometry>& s, int i) {
+/// The sum whose adjoint the stress force is: sum_j V_j (v_j - v_i) (x) grad W_ij, component D a + b.
+template <class Geometry>
+std::array<double, Geometry::dimension * Geometry::dimension> gradient_sum(const Simulation<Geometry>& s,
+                                                                           int i) {
+  constexpr int D = Geometry::dimension;
   const auto& motion = s.records.motion;
-  std::array<double, 4> sum{};
+  std::array<double, D * D> sum{};
   for (int j = 0; j < s.particles.count; ++j) {
-    double x[2], v[2];
-    for (int a = 0; a < 2; ++a) {
+    double x[D], v[D], square = 0;
+    for (int a = 0; a < D; ++a) {
       x[a] = motion[i].position[a] - motion[j].position[a];
       v[a] = motion[j].velocity[a] - motion[i].velocity[a];
+      square += x[a] * x[a];
     }
-    const double w = motion[j].volume * s.kernel.gradient_factor(std::hypot(x[0], x[1]));
-    for (int e = 0; e < 4; ++e) sum[e] += v[e / 2] * w * x[e % 2];
+    const double w = motion[j].volume * s.kernel.gradient_factor(std::sqrt(square));
+    for (int e = 0; e < D * D; ++e) sum[e] += v[e / D] * w * x[e % D];
   }
   return sum;
 }
 
 template <class Geometry> void expect_adjoint() {
-  auto s = cloud<Geometry>(13, 11, 1);
+  constexpr int D = Geometry::dimension;
+  auto s = cloud<Geometry>(D == 2 ? 13 : 8, D == 2 ? 11 : 7, 1);
   const auto& p = s.particles;
   find_gradients(s);
   find_forces(s);
   double stress_power = 0;
   for (int i = 0; i < p.count; ++i) {
-    const double hoop = Geometry::hoop ? p.velocity[0][i] / p.position[0][i] : 0;
     const auto g = gradient_sum(s, i);
-    stress_power += p.mass[i] / p.density[i] *
-                    (p.stress[0][i] * g[0] + p.stress[1][i] * g[3] + p.stress[2][i] * hoop +
-                     p.stress[3][i] * (g[1] + g[2]));
+    double power = Geometry::hoop ? p.stress[2][i] * p.velocity[0][i] / p.position[0][i] : 0;
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) power += p.stress[component<D>(a, b)][i] * g[D * a + b];
+    stress_power += p.mass[i] / p.density[i] * power;
   }
   const auto [by_pairs, size] = power(p, p.stress_acceleration);
-  EXPECT_GT(size, 1);
+  EXPECT_GT(size, D == 2 ? 1 : 1e-3);
   EXPECT_NEAR(by_pairs, -stress_power, 1e-13 * size);
 }
 
 TEST(Momentum, WorkOfPairForcesIsTheStressPowerOfTheGradientSum) {
   expect_adjoint<PlaneStrain>();
   expect_adjoint<Axisymmetric>();
+  expect_adjoint<ThreeDimensional>();
 }
 
 TEST(Momentum, PairForcesAreAntisymmetric) {
@@ -105,8 +117,8 @@ TEST(Momentum, PairForcesAreAntisymmetric) {
     }
 }
 
-TEST(Momentum, OfACloudIsKept) {
-  auto s = cloud<PlaneStrain>(13, 11, 3);
+template <class Geometry> void expect_momentum_kept(int columns, int rows) {
+  auto s = cloud<Geometry>(columns, rows, 3);
   const auto& p = s.particles;
   find_gradients(s);
   find_forces(s);
@@ -120,6 +132,63 @@ TEST(Momentum, OfACloudIsKept) {
       EXPECT_GT(size, 0);
       EXPECT_NEAR(sum, 0, 1e-13 * size);
     }
+}
+
+TEST(Momentum, OfACloudIsKept) {
+  expect_momentum_kept<PlaneStrain>(13, 11);
+  expect_momentum_kept<ThreeDimensional>(8, 7);
+}
+
+/// The sums of three dimensions, taken apart for speed, against the formula pair by pair.
+TEST(Momentum, InThreeDimensionsIsTheSumOverThePairs) {
+  auto s = cloud<ThreeDimensional>(7, 6, 9);
+  auto& p = s.particles;
+  find_gradients(s);
+  find_forces(s);
+  const auto& n = s.scene.numerics;
+  const double h = s.kernel.h;
+  for (int i = 0; i < p.count; i += 7) {
+    double stress[3]{}, viscous[3]{}, diffusion[6]{}, norm = 0;
+    const auto speed = [&](int k) {
+      double square = 0;
+      for (const auto& g : p.velocity_gradient) square += g[k] * g[k];
+      if (k == i) norm = std::sqrt(square);
+      return damping_speed(n, h, p.wave_speed[k], std::sqrt(square));
+    };
+    for (int j = 0; j < p.count; ++j) {
+      if (j == i) continue;
+      double x[3], r2 = 0, whole = 0, linear = 0;
+      for (int a = 0; a < 3; ++a) {
+        x[a] = p.position[a][i] - p.position[a][j];
+        r2 += x[a] * x[a];
+        whole += (p.velocity[a][i] - p.velocity[a][j]) * x[a];
+      }
+      const double w = s.kernel.gradient_factor(std::sqrt(r2)) * p.mass[j] / p.density[j];
+      for (int e = 0; e < 9; ++e)
+        linear += 0.5 * (p.velocity_gradient[e][i] + p.velocity_gradient[e][j]) * x[e / 3] * x[e % 3];
+      const double approach =
+          whole > 0 ? std::clamp(whole - linear, 0.0, whole) : std::clamp(whole - linear, whole, 0.0);
+      const double pressure = 0.5 * (speed(i) + speed(j)) * h * 0.5 * (p.density[i] + p.density[j]) *
+                              approach / (r2 + 0.01 * h * h);
+      for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b)
+          stress[a] += (p.stress[component<3>(a, b)][i] + p.stress[component<3>(a, b)][j]) * w * x[b];
+        viscous[a] += pressure * w * x[a];
+      }
+      for (int c = 0; c < 6; ++c) {
+        const double part = c == 2 ? 1 : (c < 2 ? s.scene.earth_pressure_ratio : 0);
+        diffusion[c] += w * (p.stress[c][i] - p.stress[c][j] - part * 1500 * 9.81 * x[2]);
+      }
+    }
+    const double diffusivity = std::min(n.stress_diffusion * h * h * norm, 0.1 * h * p.wave_speed[i]);
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_NEAR(p.stress_acceleration[a][i], stress[a] / p.density[i], 1e-9);
+      EXPECT_NEAR(p.viscous_acceleration[a][i], viscous[a] / p.density[i], 1e-9);
+    }
+    for (int c = 0; c < 6; ++c)
+      EXPECT_NEAR(p.stress_diffusion[c][i], 2 * diffusivity * diffusion[c],
+                  1e-10 * 1e3 * 2 * diffusivity / (h * h));
+  }
 }
 
 /// Gives all particles the velocity field v = v0 + G x and its gradient.
@@ -154,7 +223,8 @@ template <class Geometry> void expect_dissipation() {
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1); // hundreds of tiny clouds
   for (int seed = 0; seed < 300; ++seed) {
-    auto s = seed < 290 ? cloud<Geometry>(2, 1, seed) : cloud<Geometry>(13, 11, seed);
+    constexpr bool solid = Geometry::dimension == 3;
+    auto s = seed < 290 ? cloud<Geometry>(2, 1, seed) : cloud<Geometry>(solid ? 6 : 13, solid ? 4 : 11, seed);
     auto& p = s.particles;
     find_gradients(s);
     std::mt19937_64 random(seed);
@@ -171,6 +241,7 @@ template <class Geometry> void expect_dissipation() {
 TEST(Momentum, ViscosityNeverGivesEnergy) {
   expect_dissipation<PlaneStrain>();
   expect_dissipation<Axisymmetric>();
+  expect_dissipation<ThreeDimensional>();
 }
 
 /// Rates of stress diffusion in a uniform flow of shear rate 50 / s.

@@ -13,38 +13,48 @@ using namespace host_test;
 
 constexpr double reach = 0.006, side = 0.06; // m
 
-using Cloud = Simulation<PlaneStrain>;
+template <class Geometry> GeometryKind kind;
+template <> constexpr GeometryKind kind<PlaneStrain> = GeometryKind::plane_strain;
+template <> constexpr GeometryKind kind<ThreeDimensional> = GeometryKind::three_dimensional;
 
 /// Particles anywhere in a box at the axis and the floor, behind a gate, and a few strays far away.
-Cloud scattered(int count, double width, int strays, std::uint64_t seed) {
+template <class Geometry = PlaneStrain>
+Simulation<Geometry> scattered(int count, double width, int strays, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> place(0, width), far(1e3, 1e6);
   Scene scene;
+  scene.geometry = kind<Geometry>;
+  scene.sector = Sector::quarter;
   scene.column = {side, side};
   scene.gate.motion = GateMotion::fixed;
-  auto s = empty_cloud<PlaneStrain>(count, scene, 2);
+  auto s = empty_cloud<Geometry>(count, scene, 2);
   s.mirrors = scene_mirrors(scene);
   for (int i = 0; i < count; ++i) {
     const bool stray = i % 50 == 7 && strays-- > 0;
     auto& from = stray ? far : place;
-    put(s.particles, i, {from(random), from(random)});
+    Place<Geometry> at;
+    for (auto& x : at) x = from(random);
+    put(s.particles, i, at);
   }
   return s;
 }
 
-Cloud listed(int count, double width, int strays, std::uint64_t seed) {
-  auto s = scattered(count, width, strays, seed);
+template <class Geometry = PlaneStrain>
+Simulation<Geometry> listed(int count, double width, int strays, std::uint64_t seed) {
+  auto s = scattered<Geometry>(count, width, strays, seed);
   arrange(s, 0.25 * reach, reach);
   find_lists(s, reach);
   return s;
 }
 
-double distance(const Cloud& s, int i, int record) {
-  const auto& x = s.records.motion[record].position;
-  return std::hypot(s.particles.position[0][i] - x[0], s.particles.position[1][i] - x[1]);
+template <class Geometry> double distance(const Simulation<Geometry>& s, int i, int record) {
+  double square = 0;
+  for (int a = 0; a < Geometry::dimension; ++a)
+    square += std::pow(s.particles.position[a][i] - s.records.motion[record].position[a], 2);
+  return std::sqrt(square);
 }
 
-std::vector<int> all_records(const Cloud& s) {
+template <class Geometry> std::vector<int> all_records(const Simulation<Geometry>& s) {
   const int count = s.particles.count;
   std::vector<int> all(count + s.images.list.size());
   std::iota(all.begin(), all.begin() + count, 0);
@@ -53,7 +63,7 @@ std::vector<int> all_records(const Cloud& s) {
 }
 
 /// Every cluster lists what a search of all records finds, once, and walls' images last.
-void expect_complete(const Cloud& s) {
+template <class Geometry> void expect_complete(const Simulation<Geometry>& s) {
   const auto& p = s.particles;
   const auto all = all_records(s);
   for (int cluster = 0; cluster < p.clusters(); ++cluster) {
@@ -70,6 +80,8 @@ void expect_complete(const Cloud& s) {
 
 TEST(Neighbours, ListsHoldEveryPairAndNoOther) {
   for (const int count : {1, 8, 13, 1003}) expect_complete(listed(count, side, 0, count));
+  for (const int count : {1, 13, 1003})
+    expect_complete(listed<ThreeDimensional>(count, 0.4 * side, 0, count));
 }
 
 TEST(Neighbours, StraysFarAwayCostNoPair) {
@@ -77,6 +89,10 @@ TEST(Neighbours, StraysFarAwayCostNoPair) {
   const auto& p = s.particles;
   ASSERT_GT(*std::max_element(p.position[0].begin(), p.position[0].begin() + p.count), 1e3);
   expect_complete(s);
+}
+
+TEST(Neighbours, StraysFarAwayCostNoPairInThreeDimensions) {
+  expect_complete(listed<ThreeDimensional>(503, 0.4 * side, 5, 2));
 }
 
 TEST(Neighbours, ListsGrowWhereParticlesCrowd) {
@@ -137,20 +153,26 @@ TEST(Neighbours, SortingKeepsEachParticleTogether) {
   for (int i = 0; i < p.count; ++i) EXPECT_EQ(ids[i], i);
 }
 
-TEST(Neighbours, SortingGathersNeighboursInSpace) {
-  auto s = scattered(4096, side, 0, 9);
+/// Volume of the boxes around clusters over that of the cloud.
+template <class Geometry> double overlap(int count) {
+  auto s = scattered<Geometry>(count, side, 0, 9);
   auto& p = s.particles;
   sort_particles(p, 0.25 * reach);
-  double area = 0;
+  double volume = 0;
   for (int first = 0; first < p.count; first += lanes) {
-    double extent[2];
-    for (int a = 0; a < 2; ++a) {
+    double box = 1;
+    for (int a = 0; a < Geometry::dimension; ++a) {
       const auto [low, high] = std::minmax_element(&p.position[a][first], &p.position[a][first] + lanes);
-      extent[a] = *high - *low;
+      box *= (*high - *low) / side;
     }
-    area += extent[0] * extent[1];
+    volume += box;
   }
-  EXPECT_LT(area, 4 * side * side) << "boxes around clusters overlap much";
+  return volume;
+}
+
+TEST(Neighbours, SortingGathersNeighboursInSpace) {
+  EXPECT_LT(overlap<PlaneStrain>(4096), 4);
+  EXPECT_LT(overlap<ThreeDimensional>(4096), 4);
 }
 
 } // namespace

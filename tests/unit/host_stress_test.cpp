@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stress stage: what the material is shown, what becomes of its answer, and who is blamed.
 #include "host/geometry.hpp"
+#include "host/rotation.hpp"
 #include "host/stress.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -77,6 +78,59 @@ TEST(Stress, TurnsWithTheMaterial) {
     EXPECT_NEAR(p.stress[3][i], s(0, 1), 1e-9);
     EXPECT_EQ(p.stress[2][i], before.stress[2][i]);
     EXPECT_EQ(p.density[i], before.density[i]);
+  }
+}
+
+Eigen::Matrix3d full(const std::array<Array, 6>& s, int i) {
+  Eigen::Matrix3d m;
+  m << s[0][i], s[3][i], s[5][i], s[3][i], s[1][i], s[4][i], s[5][i], s[4][i], s[2][i];
+  return m;
+}
+
+/// Turned about a common axis by `angle` in each of seven steps: whole turns of any size leave no error.
+void expect_turned(double angle) {
+  auto p = random_particles<ThreeDimensional>(70);
+  for (auto& s : p.stress_diffusion) s.assign(s.size(), 0.0);
+  const auto before = p;
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, -2, 0.5).normalized(), w = axis * angle / dt;
+  const double spin[9] = {0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0};
+  for (int e = 0; e < 9; ++e) p.velocity_gradient[e].assign(p.padded(), spin[e]);
+  for (int step = 0; step < 7; ++step) update(p, staying());
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(7 * angle, axis).toRotationMatrix();
+  for (int i = 0; i < p.count; ++i) {
+    const Eigen::Matrix3d expected = turn * full(before.stress, i) * turn.transpose();
+    EXPECT_LT((full(p.stress, i) - expected).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_EQ(p.density[i], before.density[i]);
+  }
+}
+
+TEST(Stress, TurnsWithTheMaterialInThreeDimensions) {
+  for (const double angle : {1e-7, 0.02, 0.0999, 0.1001, 0.9}) expect_turned(angle);
+}
+
+TEST(Stress, AboutTheThirdAxisBothRotationsAgree) {
+  const std::array<double, 4> plane{-900, -1100, -1000, 60};
+  for (const double angle : {0.01, 1.3}) {
+    const auto two = turned(plane, {angle});
+    const auto three = turned({plane[0], plane[1], plane[2], plane[3], 0, 0}, {0, 0, angle});
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(three[c], two[c], 1e-10);
+  }
+}
+
+TEST(Stress, OfLinearElasticityInThreeDimensions) {
+  auto p = random_particles<ThreeDimensional>(197);
+  for (int i = 0; i < p.count; ++i) // no spin
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < a; ++b) p.velocity_gradient[3 * a + b][i] = p.velocity_gradient[3 * b + a][i];
+  const auto before = p;
+  update(p, elastic());
+  const double twice_g = young / (1 + poisson), lambda = twice_g * poisson / (1 - 2 * poisson);
+  for (int i = 0; i < p.count; ++i) {
+    Eigen::Matrix3d strain;
+    for (int e = 0; e < 9; ++e) strain(e / 3, e % 3) = before.velocity_gradient[e][i] * dt;
+    const Eigen::Matrix3d expected = full(before.stress, i) + full(before.stress_diffusion, i) * dt +
+                                     twice_g * strain + lambda * strain.trace() * Eigen::Matrix3d::Identity();
+    EXPECT_LT((full(p.stress, i) - expected).cwiseAbs().maxCoeff(), 1e-8);
   }
 }
 
@@ -175,6 +229,40 @@ TEST(Stress, WaveSpeedIsThatOfUniaxialStrain) {
     EXPECT_NEAR(p.wave_speed[i], std::sqrt((bulk + 4 * shear / 3) / p.density[i]), 1e-6);
   EXPECT_EQ(p.stress, before.stress) << "a question, not a step";
   EXPECT_EQ(p.state, before.state);
+}
+
+/// A material whose stress grows by its own amount times the strain: wave speeds are those of the stress.
+void stiffens(const int* nblock, const int*, const int* nshr, const int*, const int*, const int*, const int*,
+              const double*, const double*, const double*, const char*, const double*, const double*,
+              const double*, const double*, const double* strain, const double*, const double*, const double*,
+              const double*, const double*, const double* old, const double*, const double*, const double*,
+              const double*, const double*, const double*, const double*, double* stress, double*, double*,
+              double*, std::size_t) {
+  for (int c = 0; c < *nblock * (3 + *nshr); ++c) stress[c] = old[c] * (1 - strain[c]);
+}
+
+TEST(Stress, WaveSpeedIsAskedForWhereTheStressHasChanged) {
+  const Material material{{"stiffens", nullptr, stiffens}, "STIFFENS", {}, 1};
+  auto p = random_particles<ThreeDimensional>(197);
+  p.stress[0].assign(p.padded(), -1000);
+  for (int c = 1; c < 6; ++c) p.stress[c].assign(p.padded(), 0);
+  auto blocks = make_stress_blocks(material, p, 0.002);
+  blocks.tolerance = 0.1;
+  update_wave_speed(p, material, blocks);
+  const auto first = p.wave_speed;
+  const auto expected = [&](int i) { return std::sqrt(-p.stress[0][i] / p.density[i]); };
+  for (int i = 0; i < p.count; ++i) EXPECT_NEAR(first[i], expected(i), 1e-6 * first[i]);
+
+  for (int i = 0; i < p.count; ++i) p.stress[0][i] *= i % 3 == 0 ? 1.05 : (i % 3 == 1 ? 1.5 : 0.5);
+  update_wave_speed(p, material, blocks, 5);
+  for (int i = 0; i < p.count; ++i) {
+    if (i % 3 == 0 && (i / lanes + 5) % 16 != 0)
+      EXPECT_EQ(p.wave_speed[i], first[i]);
+    else
+      EXPECT_NEAR(p.wave_speed[i], expected(i), 1e-6 * first[i]);
+  }
+  for (int step = 6; step < 21; ++step) update_wave_speed(p, material, blocks, step);
+  for (int i = 0; i < p.count; ++i) EXPECT_NEAR(p.wave_speed[i], expected(i), 1e-6 * first[i]);
 }
 
 } // namespace

@@ -103,7 +103,9 @@ TEST(MaterialPoint, ABlockOfManyIsManyBlocksOfOne) {
 }
 
 TEST(MaterialPoint, StretchIsTheExponentialOfTheStrain) {
-  MaterialCaller material(made_of(elastic));
+  auto shown = made_of(elastic);
+  shown.frame = host::Frame::green_naghdi;
+  MaterialCaller material(shown);
   const Vector6 coaxial(0.1, 0.2, 0.3, 0, 0, 0);
   const auto from = start();
   EXPECT_DOUBLE_EQ(material.respond({&from, 1}, {&coaxial, 1}, 1).front().state[1], std::exp(-0.3));
@@ -150,6 +152,18 @@ TEST(MaterialPoint, TheDataCheckGivesTheStiffness) {
   EXPECT_NEAR(stiffness(0, 0), young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)), 1);
   EXPECT_NEAR(stiffness(3, 3), young / (1 + poisson), 1); // tensor shear: 2 G
   EXPECT_NEAR(stiffness(0, 4), 0, 1);
+}
+
+TEST(MaterialPoint, AnIncrementAtRestLeavesTheStiffnessAsItIs) {
+  MaterialCaller material(made_of(elastic));
+  auto point = start();
+  const auto from = point;
+  const auto control = per_component(from, {false, true, true, true, true, true}, Vector6::Zero());
+  auto stiffness = material.elastic_stiffness(point);
+  const auto before = stiffness;
+  ASSERT_TRUE(advance(material, control, 0, 1, 1, scale, {}, point, stiffness).converged);
+  EXPECT_EQ(stiffness, before);
+  EXPECT_EQ(point.stress, from.stress);
 }
 
 TEST(MaterialPoint, DependentRestrictionsFailAndSaySo) {

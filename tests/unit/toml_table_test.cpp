@@ -151,6 +151,22 @@ TEST(Toml, TheResolvedDocumentReadsIdentically) {
   EXPECT_EQ(again.path("file"), "/data/scenes/x");
 }
 
+TEST(TomlSettings, ReplaceAndAddValuesAndNameThemselvesInErrors) {
+  const auto root = parse_toml("[scene]\nspacing = 1.0\n", "file", ".",
+                               {"scene.spacing=2.5", "floor.friction=no-slip", "scene.gravity=x"});
+  EXPECT_EQ(root.table("scene").number("spacing"), 2.5);
+  EXPECT_EQ(root.table("floor").text("friction"), "no-slip");
+  try {
+    root.table("scene").number("gravity");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "file (as set by the command): key 'scene.gravity': expected a number, found \"x\"");
+  }
+  EXPECT_THROW(parse_toml("", "file", ".", {"no value"}), std::runtime_error);
+  EXPECT_THROW(parse_toml("", "file", ".", {"=1"}), std::runtime_error);
+}
+
 TEST(Toml, AFileThatCannotBeReadIsNamed) {
   EXPECT_EQ(error_of([] { read_toml("/no/such.toml"); }),
             "/no/such.toml: expected a readable TOML file with content, found none");

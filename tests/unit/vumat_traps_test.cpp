@@ -86,6 +86,17 @@ TEST(VumatTraps, PartedGrainsCarryNoStressUntilTheyMeet) {
   EXPECT_NEAR(mean(closed.point.stress), mean(loaded.point.stress), 1e-9 * mean(loaded.point.stress));
 }
 
+TEST(VumatTraps, AGapThatClosesExactlyIsStressFree) {
+  const auto m = material(SS);
+  const double part = 0x1p-20;
+  const auto closed = simsand::update(m, Point6{Tensor6{}, 0.6, 0.01, 3 * part}, isotropic(part));
+  EXPECT_EQ(closed.status, Status::stress_free);
+  EXPECT_EQ(mean(closed.point.stress), 0);
+  EXPECT_GT(closed.point.separation_strain, 0);
+  EXPECT_LT(closed.point.separation_strain, 1e-300);
+  EXPECT_GT(mean(simsand::update(m, closed.point, isotropic(part)).point.stress), 0);
+}
+
 TEST(VumatTraps, NoShearStressOutlivesTheMeanStress) {
   const auto m = material(SS);
   const auto s = simsand::scale(300., Tensor6{{2. / 3, -1. / 3, -1. / 3}});

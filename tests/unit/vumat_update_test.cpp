@@ -188,6 +188,42 @@ TEST(VumatUpdate, BadStatesFailAndChangeNothing) {
   EXPECT_EQ(failed.point.void_ratio, good.void_ratio);
 }
 
+TEST(VumatUpdate, ATrialThatSeriesTakeForElasticIsReturned) {
+  // Compression by many times the stress: e_c and e fall by nearly the same, and the slope of e_c changes on the way.
+  struct Found {
+    Shape shape;
+    Point6 point;
+    Tensor6 strain;
+  };
+  const std::array found{Found{ES,
+                               {{{99844.140129214138, 57428.604181613155, 75454.403200205968,
+                                  -5219.5748881872678, -8002.6464444699168, 1224.8840680713934}},
+                                0.73294702439534232,
+                                0.0072283806457503711,
+                                0},
+                               {{0.0056804322034110987, 0.007154151979380614, 0.005162386971347464,
+                                 -0.004415443568052969, -0.00098020986969437848, 0.00054082757458102698}}},
+                         Found{TS,
+                               {{{0.00084753315924204103, 0.0013223948297033036, 0.0010532041767855338,
+                                  0.00022098862840928666, 9.0466128918331194e-05, 0.00049453767766315592}},
+                                0.67338902962844494,
+                                0.060943461773639379,
+                                0},
+                               {{0.0010067010896752274, 0.00076892924835663973, 2.3484565583341927e-05,
+                                 0.00062512824970190474, 0.00019001471517819045, 6.5320411959334936e-05}}},
+                         Found{ES,
+                               {{}, 0.65538332248483344, 0.26576425148596033, 0},
+                               {{0.00021993525451845065, 0.00038926108382438592, 0.0011662541030601375,
+                                 -0.00035253473448440623, -0.00046173966466687771, 0.00041263025673960374}}}};
+  for (const auto& [shape, point, strain] : found) {
+    const auto m = material(shape);
+    const auto after = simsand::update(m, point, strain);
+    EXPECT_GE(int(after.status), int(Status::plastic));
+    EXPECT_GT(after.point.plastic_strain, point.plastic_strain);
+    EXPECT_LE(yield_of(m, after.point), 1e-9 * mean(after.point.stress));
+  }
+}
+
 /// Any state and increment leads to an admissible state.
 template <class Real> void admissible(int count, Real yield_tolerance) {
   using T = simsand::SymmetricTensor<Real, 6>;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The element driver with the shipped material, against an independent integration of the equations
 // (data/reference/element_drained.csv), closed forms, and the critical state.
-#include "drivers/element.hpp"
+#include "drivers/element/command.hpp"
+#include "tests/verification/element_fixture.hpp"
 #include <cmath>
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -11,67 +12,9 @@
 #include <map>
 #include <sstream>
 
-using namespace drivers;
+using namespace element_fixture;
 
 namespace {
-
-const std::string paths = SIMSAND_SOURCE_DIR "/data/paths";
-
-struct Shape {
-  std::string name;
-  double phi, e_ref; // degrees, -
-};
-const Shape shapes[] = {{"SS", 18.5, 0.76}, {"TS", 24, 0.76}, {"ES", 26, 0.74}};
-constexpr double p_at = 101325, lambda = 0.04, zeta = 0.3; // of all three
-
-/// q/p at the critical state, in triaxial compression (sign 1) or extension (-1), equations (6), (7).
-double critical_ratio(const Shape& s, double sign) {
-  const double sine = std::sin(s.phi * M_PI / 180);
-  return 6 * sine / (3 - sign * sine);
-}
-
-double critical_void_ratio(const Shape& s, double p) {
-  return s.e_ref - lambda * std::pow(p / p_at, zeta);
-}
-
-std::string path_text(const std::string& shape, double e0, double p, const std::string& stages) {
-  return fmt::format(
-      "[material]\nfile = '../materials/{}.toml'\n[initial]\nvoid_ratio = {}\nmean_stress = {}\n{}", shape,
-      e0, toml_number(p), stages);
-}
-
-ElementCase case_of(const std::string& text) {
-  return read_element_case(parse_toml(text, "path.toml", paths));
-}
-
-std::string stage_text(const std::string& control, const std::string& rest) {
-  return fmt::format("[[stage]]\nname = 'shear'\ncontrol = '{}'\n{}\n", control, rest);
-}
-
-std::vector<ElementRow> rows_of(const std::string& text) {
-  std::vector<ElementRow> rows;
-  run_element_case(case_of(text), [&](const ElementRow& r) { rows.push_back(r); });
-  return rows;
-}
-
-double void_ratio(double e0, const ElementRow& r) {
-  return (1 + e0) * std::exp(-volumetric_strain(r.point.strain)) - 1;
-}
-double p_of(const ElementRow& r) {
-  return mean_stress(r.point.stress);
-}
-double q_of(const ElementRow& r) {
-  return deviatoric_stress(r.point.stress);
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 struct ReferenceTest {
   std::string shape;
@@ -253,18 +196,18 @@ TEST(Element, ConvergesFromOnePascalToOneMegapascal) {
           }
 }
 
-TEST(Element, AStopRuleEndsTheStage) {
+TEST(Element, AStopRuleEndsTheStageOnItsBound) {
   const auto rows =
       rows_of(path_text("TS", 0.44, 10e3,
                         stage_text("triaxial-drained", "axial_strain = 0.4\nstrain_increment = 1e-3\n"
                                                        "stop = [{quantity = 'q', above = 50e3}]") +
                             stage_text("triaxial-drained", "axial_strain = -0.001\nincrements = 10")));
-  const auto first_after =
-      std::find_if(rows.begin(), rows.end(), [](const auto& r) { return q_of(r) > 50e3; });
-  ASSERT_NE(first_after, rows.end());
-  EXPECT_EQ(first_after->stage, 1);
-  EXPECT_EQ((first_after + 1)->stage, 2);
-  EXPECT_LT(rows.back().point.strain[0], first_after->point.strain[0]);
+  const auto end = std::find_if(rows.begin(), rows.end(), [](const auto& r) { return q_of(r) > 50e3; });
+  ASSERT_NE(end, rows.end());
+  EXPECT_EQ(end->stage, 1);
+  EXPECT_EQ((end + 1)->stage, 2);
+  EXPECT_NEAR(q_of(*end), 50e3, 1e-9 * 50e3);
+  EXPECT_NEAR(end->point.strain[0] + rows.back().point.strain[0], 2 * end->point.strain[0] - 0.001, 1e-12);
 }
 
 TEST(Element, AStressThatCannotBeReachedIsAnErrorWithTheEvidence) {
@@ -312,18 +255,20 @@ TEST(Element, TheResolvedPathGivesTheSameRows) {
 
 TEST(Element, TheCommandWritesItsHeaderAndReportsErrorsByItsResult) {
   const auto output = testing::TempDir() + "/element.csv";
-  ASSERT_EQ(run_element({paths + "/ts_dense_10kpa.toml", output, ""}), 0);
+  ASSERT_EQ(run_element({paths + "/ts_dense_10kpa.toml", output, "", ""}), 0);
   std::ifstream file(output);
   std::string header;
   std::getline(file, header);
-  EXPECT_EQ(header,
-            "stage,step,time_s,strain_11,strain_22,strain_33,strain_12,strain_23,strain_31,stress_11_Pa,"
-            "stress_22_Pa,stress_33_Pa,stress_12_Pa,stress_23_Pa,stress_31_Pa,p_Pa,q_Pa,lode_angle_deg,"
-            "volumetric_strain,deviatoric_strain,void_ratio,pore_pressure_Pa,state_void_ratio,"
-            "state_plastic_deviatoric_strain,state_separation_strain,state_status,state_nonconvex_updates,"
-            "internal_energy_J_per_kg,inelastic_energy_J_per_kg,iterations,cuts");
+  EXPECT_EQ(
+      header,
+      "stage,step,time_s,strain_11,strain_22,strain_33,strain_12,strain_23,strain_31,stress_11_Pa,"
+      "stress_22_Pa,stress_33_Pa,stress_12_Pa,stress_23_Pa,stress_31_Pa,p_Pa,q_Pa,deviator_Pa,lode_angle_deg,"
+      "volumetric_strain,deviatoric_strain,void_ratio,critical_void_ratio,critical_stress_ratio,"
+      "pore_pressure_Pa,pore_pressure_ratio,total_mean_stress_Pa,cycles,double_amplitude,state_void_ratio,"
+      "state_plastic_deviatoric_strain,state_separation_strain,state_status,state_nonconvex_updates,"
+      "internal_energy_J_per_kg,inelastic_energy_J_per_kg,iterations,cuts");
   testing::internal::CaptureStderr();
-  EXPECT_EQ(run_element({"/no/such.toml", output, ""}), 1);
+  EXPECT_EQ(run_element({"/no/such.toml", output, "", ""}), 1);
   const auto error = testing::internal::GetCapturedStderr();
   EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1);
 }

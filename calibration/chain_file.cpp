@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/chain_file.hpp"
+#include "drivers/version.hpp"
+#include "host/hdf5_write.hpp"
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace calibration {
+namespace {
+
+constexpr const char* format_name = "simsand chain";
+constexpr int format_version = 1;
+constexpr hsize_t chunk_length = 65536; ///< values, 512 KiB of doubles
+
+using Shape = std::vector<hsize_t>;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
+}
+
+// Writing. Every dataset carries a checksum.
+
+/// An array whose first extent may be long.
+void array(const H5::Group& group, const std::string& name, const H5::PredType& type, const void* values,
+           const Shape& shape) {
+  Shape chunk = shape;
+  hsize_t size = 1, row = 1;
+  for (std::size_t i = 0; i < shape.size(); ++i) size *= shape[i], row *= i > 0 ? shape[i] : 1;
+  H5::DSetCreatPropList properties;
+  if (size > 0) {
+    chunk[0] = std::clamp<hsize_t>(chunk_length / row, 1, shape[0]);
+    properties.setChunk(int(shape.size()), chunk.data());
+    properties.setFletcher32();
+  }
+  const auto dataset =
+      group.createDataSet(name, type, H5::DataSpace(int(shape.size()), shape.data()), properties);
+  if (size > 0) dataset.write(values, type);
+}
+
+void real_array(const H5::Group& group, const std::string& name, const double* values, const Shape& shape) {
+  array(group, name, H5::PredType::NATIVE_DOUBLE, values, shape);
+}
+
+/// A matrix with points as columns, as rows of the dataset.
+void points_array(const H5::Group& group, const std::string& name, const Eigen::MatrixXd& points) {
+  real_array(group, name, points.data(), {hsize_t(points.cols()), hsize_t(points.rows())});
+}
+
+void counter(const H5::Group& group, const std::string& name, std::int64_t value) {
+  group.createAttribute(name, H5::PredType::NATIVE_INT64, H5::DataSpace(H5S_SCALAR))
+      .write(H5::PredType::NATIVE_INT64, &value);
+}
+
+void write_mixture(const H5::Group& group, const StudentMixture& mixture) {
+  const hsize_t n = mixture.components.size(), d = mixture.components.front().centre.size();
+  std::vector<double> weights, norms, centres, factors;
+  for (const auto& c : mixture.components) {
+    weights.push_back(c.weight);
+    norms.push_back(c.log_norm);
+    centres.insert(centres.end(), c.centre.begin(), c.centre.end());
+    factors.insert(factors.end(), c.factor.data(), c.factor.data() + c.factor.size());
+  }
+  real_array(group, "mixture_weights", weights.data(), {n});
+  real_array(group, "mixture_norms", norms.data(), {n});
+  real_array(group, "mixture_centres", centres.data(), {n, d});
+  real_array(group, "mixture_factors", factors.data(), {n, d, d});
+}
+
+void write_options(const H5::Group& root, const SamplerOptions& o, const Checkpoint& checkpoint) {
+  counter(root, "walkers", o.walkers);
+  counter(root, "burn_in", o.burn_in);
+  counter(root, "thinning", o.thinning);
+  counter(root, "seed", std::int64_t(o.seed));
+  host::attribute(root, "fingerprint", checkpoint.fingerprint);
+  std::string names;
+  for (const auto& name : checkpoint.names) names += (names.empty() ? "" : "\n") + name;
+  host::attribute(root, "names", names);
+  real_array(root, "lower", o.lower.data(), {hsize_t(o.lower.size())});
+  real_array(root, "upper", o.upper.data(), {hsize_t(o.upper.size())});
+}
+
+void write_state(const H5::Group& group, const SamplerState& s) {
+  counter(group, "step", s.step);
+  counter(group, "fitted_first", s.fitted_first);
+  counter(group, "fitted_count", s.fitted_count);
+  counter(group, "proposed", s.proposed);
+  counter(group, "accepted", s.accepted);
+  counter(group, "independent_proposed", s.independent_proposed);
+  counter(group, "independent_accepted", s.independent_accepted);
+  points_array(group, "points", s.points);
+  real_array(group, "log_density", s.log_density.data(), {hsize_t(s.log_density.size())});
+  points_array(group, "archive", s.archive);
+  points_array(group, "kernel_archive", s.kernel.archive);
+  real_array(group, "kernel_spread", s.kernel.spread.data(), {hsize_t(s.kernel.spread.size())});
+  real_array(group, "kernel_weight", s.kernel.weight.data(), {hsize_t(moves)});
+  write_mixture(group, s.kernel.mixture);
+  array(group, "random", H5::PredType::NATIVE_UCHAR, s.random.data(), {s.random.size()});
+}
+
+void write_chain(const H5::Group& root, const Chain& chain) {
+  const hsize_t steps = chain.steps, walkers = chain.walkers, dimensions = chain.dimensions;
+  real_array(root, "samples", chain.samples.data(), {steps, walkers, dimensions});
+  real_array(root, "log_density", chain.log_density.data(), {steps, walkers});
+  host::attribute(root, "acceptance", chain.acceptance);
+  host::attribute(root, "complete", int(chain.complete));
+}
+
+/// The file as it shall stand on disk, built in memory.
+std::vector<char> chain_image(const SamplerState& state, const SamplerOptions& options,
+                              const Checkpoint& checkpoint) {
+  H5::FileAccPropList in_memory;
+  in_memory.setCore(1 << 20, false);
+  H5::H5File file("chain", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
+  host::attribute(file, "format", std::string(format_name));
+  host::attribute(file, "format_version", format_version);
+  host::attribute(file, "version", std::string(drivers::version));
+  host::attribute(file, "random_generator", std::string("GSL mt19937"));
+  write_options(file, options, checkpoint);
+  write_chain(file, state.chain);
+  write_state(file.createGroup("state"), state);
+  file.flush(H5F_SCOPE_GLOBAL);
+  const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
+  std::vector<char> image(size > 0 ? std::size_t(size) : 0);
+  if (size <= 0 || H5Fget_file_image(file.getId(), image.data(), image.size()) < 0)
+    throw H5::FileIException("chain_image", "no image of the file");
+  return image;
+}
+
+/// Writes all bytes and brings them to disk. HDF5 itself does not survive every failure of its own writes.
+void write_bytes(const std::filesystem::path& path, const std::vector<char>& bytes) {
+  const int handle = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  std::size_t done = 0;
+  ssize_t written = handle < 0 ? -1 : 0;
+  while (written >= 0 && done < bytes.size()) {
+    written = ::write(handle, bytes.data() + done, bytes.size() - done);
+    if (written > 0) done += std::size_t(written);
+    if (written < 0 && errno == EINTR) written = 0;
+  }
+  const bool failed = written < 0 || ::fsync(handle) != 0;
+  const int error = errno;
+  if (handle >= 0) ::close(handle);
+  if (!failed) return;
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  fail(path, fmt::format("cannot write the chain ({}); the state before is kept", std::strerror(error)));
+}
+
+/// Brings the entries of a folder to disk.
+void flush_folder(const std::filesystem::path& path) {
+  const int handle = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (handle < 0) return; // it can be written to but not read: then the system's own time must do
+  ::fsync(handle);
+  ::close(handle);
+}
+
+// Reading.
+
+struct Reader {
+  const std::filesystem::path& path;
+
+  std::int64_t counter(const H5::H5Object& object, const std::string& name) const {
+    std::int64_t value = 0;
+    object.openAttribute(name).read(H5::PredType::NATIVE_INT64, &value);
+    return value;
+  }
+  double real(const H5::H5Object& object, const std::string& name) const {
+    double value = 0;
+    object.openAttribute(name).read(H5::PredType::NATIVE_DOUBLE, &value);
+    return value;
+  }
+  std::string text(const H5::H5Object& object, const std::string& name) const {
+    std::string value;
+    const auto attribute = object.openAttribute(name);
+    attribute.read(attribute.getStrType(), value);
+    return value.c_str();
+  }
+  Shape shape(const H5::Group& group, const std::string& name) const {
+    const auto space = group.openDataSet(name).getSpace();
+    Shape extents(space.getSimpleExtentNdims());
+    space.getSimpleExtentDims(extents.data());
+    return extents;
+  }
+  template <typename Value>
+  std::vector<Value> array(const H5::Group& group, const std::string& name, const H5::PredType& type,
+                           const Shape& expected) const {
+    if (shape(group, name) != expected)
+      fail(path, fmt::format("damaged chain: extents of {} differ from what its attributes say", name));
+    hsize_t size = 1;
+    for (const auto extent : expected) size *= extent;
+    std::vector<Value> values(size);
+    if (size > 0) group.openDataSet(name).read(values.data(), type);
+    return values;
+  }
+  std::vector<double> reals(const H5::Group& group, const std::string& name, const Shape& expected) const {
+    return array<double>(group, name, H5::PredType::NATIVE_DOUBLE, expected);
+  }
+  Eigen::MatrixXd points(const H5::Group& group, const std::string& name, hsize_t dimensions) const {
+    const Shape extents = shape(group, name);
+    const hsize_t count = extents.empty() ? 0 : extents[0];
+    const auto values = reals(group, name, {count, dimensions});
+    return Eigen::Map<const Eigen::MatrixXd>(values.data(), Eigen::Index(dimensions), Eigen::Index(count));
+  }
+  Eigen::VectorXd vector(const H5::Group& group, const std::string& name, hsize_t size) const {
+    const auto values = reals(group, name, {size});
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(size));
+  }
+};
+
+/// Runs `read` and turns HDF5's exceptions into one line.
+template <typename Read> auto guarded_read(const std::filesystem::path& path, const Read& read) {
+  const host::QuietDestructors quiet;
+  H5::Exception::dontPrint();
+  try {
+    return read();
+  } catch (const H5::Exception& e) {
+    fail(path,
+         fmt::format("not a chain of this program, or damaged ({}); the file is left as it is. Name another "
+                     "file or delete this one",
+                     e.getDetailMsg()));
+  }
+}
+
+H5::H5File open_chain(const std::filesystem::path& path, const Reader& reader) {
+  H5::H5File file(path.string(), H5F_ACC_RDONLY);
+  if (!file.attrExists("format") || reader.text(file, "format") != format_name)
+    fail(path, "not a chain of this program; the file is left as it is");
+  if (const auto version = reader.counter(file, "format_version"); version != format_version)
+    fail(path, fmt::format("format {} of the chain, this program reads {}", version, format_version));
+  return file;
+}
+
+std::vector<std::string> read_names(const H5::H5File& file, const Reader& reader) {
+  std::vector<std::string> names;
+  const std::string text = reader.text(file, "names");
+  for (std::size_t first = 0; first < text.size();) {
+    const auto last = std::min(text.find('\n', first), text.size());
+    names.push_back(text.substr(first, last - first));
+    first = last + 1;
+  }
+  return names;
+}
+
+Chain read_samples(const H5::H5File& file, const Reader& reader) {
+  const Shape extents = reader.shape(file, "samples");
+  if (extents.size() != 3) fail(reader.path, "damaged chain: samples must have three extents");
+  Chain chain;
+  chain.steps = int(extents[0]);
+  chain.walkers = int(extents[1]);
+  chain.dimensions = int(extents[2]);
+  chain.samples = reader.reals(file, "samples", extents);
+  chain.log_density = reader.reals(file, "log_density", {extents[0], extents[1]});
+  chain.acceptance = reader.real(file, "acceptance");
+  chain.complete = reader.counter(file, "complete") != 0;
+  return chain;
+}
+
+StudentMixture read_mixture(const H5::Group& group, const Reader& reader, hsize_t d) {
+  const Shape extents = reader.shape(group, "mixture_weights");
+  const hsize_t n = extents.empty() ? 0 : extents[0];
+  const auto weights = reader.reals(group, "mixture_weights", {n}),
+             norms = reader.reals(group, "mixture_norms", {n});
+  const auto centres = reader.reals(group, "mixture_centres", {n, d});
+  const auto factors = reader.reals(group, "mixture_factors", {n, d, d});
+  StudentMixture mixture;
+  for (hsize_t k = 0; k < n; ++k) {
+    const auto extent = Eigen::Index(d);
+    mixture.components.push_back(
+        {weights[k], norms[k], Eigen::Map<const Eigen::VectorXd>(centres.data() + k * d, extent),
+         Eigen::Map<const Eigen::MatrixXd>(factors.data() + k * d * d, extent, extent)});
+  }
+  return mixture;
+}
+
+SamplerState read_state(const H5::Group& group, const Reader& reader, hsize_t dimensions, hsize_t walkers) {
+  SamplerState s;
+  s.step = reader.counter(group, "step");
+  s.fitted_first = reader.counter(group, "fitted_first");
+  s.fitted_count = reader.counter(group, "fitted_count");
+  s.proposed = reader.counter(group, "proposed");
+  s.accepted = reader.counter(group, "accepted");
+  s.independent_proposed = reader.counter(group, "independent_proposed");
+  s.independent_accepted = reader.counter(group, "independent_accepted");
+  s.points = reader.points(group, "points", dimensions);
+  s.log_density = reader.vector(group, "log_density", walkers);
+  s.archive = reader.points(group, "archive", dimensions);
+  s.kernel.archive = reader.points(group, "kernel_archive", dimensions);
+  s.kernel.spread = reader.vector(group, "kernel_spread", dimensions);
+  const auto weight = reader.reals(group, "kernel_weight", {hsize_t(moves)});
+  std::copy(weight.begin(), weight.end(), s.kernel.weight.begin());
+  s.kernel.mixture = read_mixture(group, reader, dimensions);
+  s.random =
+      reader.array<unsigned char>(group, "random", H5::PredType::NATIVE_UCHAR, reader.shape(group, "random"));
+  return s;
+}
+
+void require_same(const H5::H5File& file, const Reader& reader, const SamplerOptions& o, const Checkpoint& c,
+                  const Chain& chain, int dimensions) {
+  const auto differ = [&](const std::string& what, const auto& stored, const auto& asked) {
+    if (stored != asked)
+      fail(reader.path,
+           fmt::format("the chain is of another run: {} is {} there and {} here; name another file "
+                       "to start anew",
+                       what, stored, asked));
+  };
+  differ("fingerprint of the problem", reader.text(file, "fingerprint"), c.fingerprint);
+  differ("number of dimensions", chain.dimensions, dimensions);
+  if (read_names(file, reader) != c.names)
+    fail(reader.path, "the chain is of other parameters; name another file");
+  differ("walkers", reader.counter(file, "walkers"), std::int64_t(o.walkers));
+  differ("burn_in", reader.counter(file, "burn_in"), std::int64_t(o.burn_in));
+  differ("thinning", reader.counter(file, "thinning"), std::int64_t(o.thinning));
+  differ("seed", std::uint64_t(reader.counter(file, "seed")), o.seed);
+  for (const auto& [name, bound] : {std::pair("lower", &o.lower), std::pair("upper", &o.upper)})
+    if (reader.shape(file, name) != Shape{hsize_t(bound->size())} ||
+        reader.vector(file, name, hsize_t(bound->size())) != *bound)
+      fail(reader.path, fmt::format("the chain is of another run: other {} bounds; name another file", name));
+  if (chain.steps > o.steps)
+    fail(reader.path,
+         fmt::format("the chain has {} steps, more than the {} asked for", chain.steps, o.steps));
+}
+
+} // namespace
+
+ChainFile::ChainFile(Checkpoint where, SamplerOptions how)
+    : checkpoint(std::move(where)), options(std::move(how)), lock_path(checkpoint.file.string() + ".lock") {
+  std::error_code error;
+  if (checkpoint.file.has_parent_path())
+    std::filesystem::create_directories(checkpoint.file.parent_path(), error);
+  if (error) fail(checkpoint.file, fmt::format("cannot create its folder ({})", error.message()));
+  lock = ::open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (lock < 0) fail(checkpoint.file, fmt::format("cannot write beside it ({})", std::strerror(errno)));
+  if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
+    ::close(lock);
+    fail(checkpoint.file, "another run is writing this file");
+  }
+  if (!checkpoint.resume && exists()) {
+    ::close(lock);
+    fail(checkpoint.file, "exists already");
+  }
+}
+
+ChainFile::~ChainFile() {
+  ::close(lock); // the empty file stays: removing it could take the lock from a run that has just opened it
+}
+
+bool ChainFile::exists() const {
+  return std::filesystem::exists(checkpoint.file);
+}
+
+SamplerState ChainFile::read(int dimensions) const {
+  const Reader reader{checkpoint.file};
+  return guarded_read(checkpoint.file, [&] {
+    const H5::H5File file = open_chain(checkpoint.file, reader);
+    Chain chain = read_samples(file, reader);
+    require_same(file, reader, options, checkpoint, chain, dimensions);
+    SamplerState state =
+        read_state(file.openGroup("state"), reader, hsize_t(chain.dimensions), hsize_t(chain.walkers));
+    state.chain = std::move(chain);
+    return state;
+  });
+}
+
+void ChainFile::write(const SamplerState& state) const {
+  const std::filesystem::path aside = checkpoint.file.string() + ".part";
+  std::vector<char> image;
+  H5::Exception::dontPrint();
+  host::guarded_write(aside, "the chain", [&] { image = chain_image(state, options, checkpoint); });
+  write_bytes(aside, image);
+  std::error_code error;
+  std::filesystem::rename(aside, checkpoint.file, error);
+  if (error) fail(checkpoint.file, fmt::format("cannot be replaced ({})", error.message()));
+  flush_folder(checkpoint.file.has_parent_path() ? checkpoint.file.parent_path() : ".");
+}
+
+StoredChain read_chain(const std::filesystem::path& path) {
+  const Reader reader{path};
+  return guarded_read(path, [&] {
+    const H5::H5File file = open_chain(path, reader);
+    return StoredChain{read_samples(file, reader), read_names(file, reader),
+                       reader.text(file, "fingerprint")};
+  });
+}
+
+} // namespace calibration

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration/coverage.hpp"
+#include "calibration/csv_table.hpp"
+#include "calibration/posterior.hpp"
+#include <algorithm>
+#include <exception>
+#include <fmt/format.h>
+
+namespace calibration {
+namespace {
+
+std::vector<Covered> one_set(const Fit& base, int number) {
+  Fit fit = base;
+  make_curves(fit, fit.synthetic->seed + std::uint64_t(number));
+  Objective objective(fit);
+  const auto best = least_squares(objective);
+  const auto known = identify(objective, best);
+  auto options = *fit.sampling;
+  options.seed += std::uint64_t(number);
+  options.burn_in = options.coverage_burn_in;
+  options.steps = options.coverage_steps;
+  const auto posterior = sample_posterior(objective, best, known, options);
+  std::vector<Covered> out;
+  for (int d = 0; d < fit.parameters(); ++d) {
+    const auto& p = fit.unknowns[d];
+    const auto& m = posterior.diagnosis.marginals[d];
+    out.push_back({fit.synthetic->properties[p.property], m.equal_tailed.lower, m.equal_tailed.upper, m.mean,
+                   p.value(best.best.end[d]), posterior.diagnosis.verdict.converged});
+  }
+  return out;
+}
+
+} // namespace
+
+double Coverage::part(std::size_t parameter) const {
+  double inside = 0;
+  for (const auto& set : sets) inside += set[parameter].inside();
+  return inside / double(sets.size());
+}
+
+double Coverage::overall() const {
+  double sum = 0;
+  for (std::size_t d = 0; d < names.size(); ++d) sum += part(d);
+  return sum / double(names.size());
+}
+
+Coverage study_coverage(const Fit& fit, int sets, const Coverage& known,
+                        const std::function<void(const Coverage&, int)>& tell) {
+  Coverage out;
+  for (int d = 0; d < fit.parameters(); ++d) out.names.push_back(fit.unknowns[d].name);
+  out.sets = known.sets;
+  out.sets.resize(sets);
+  int done = int(std::count_if(out.sets.begin(), out.sets.end(), [](const auto& s) { return !s.empty(); }));
+  std::exception_ptr error;
+#pragma omp parallel for schedule(dynamic)
+  for (int k = 0; k < sets; ++k) {
+    if (k < int(known.sets.size()) && !known.sets[k].empty()) continue;
+    std::vector<Covered> set;
+    std::exception_ptr failed;
+    try {
+      set = one_set(fit, k + 1);
+    } catch (...) {
+      failed = std::current_exception();
+    }
+#pragma omp critical
+    try {
+      if (failed) std::rethrow_exception(failed);
+      out.sets[k] = std::move(set);
+      ++done;
+      if (tell) tell(out, done);
+    } catch (...) {
+      error = std::current_exception();
+    }
+  }
+  if (error) std::rethrow_exception(error);
+  return out;
+}
+
+namespace {
+
+/// A number that belongs to a fit: a resumed study is one of the same.
+std::uint32_t mark(const Fit& fit) {
+  std::uint32_t hash = 2166136261u; // FNV-1a
+  for (const char c : fit.resolved) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash;
+}
+
+} // namespace
+
+std::string coverage_csv(const Fit& fit, const Coverage& coverage) {
+  std::string out = fmt::format(
+      "# fit: {}\ndata_set,parameter,truth,lower_90,upper_90,mean,best,converged,inside\n", mark(fit));
+  for (std::size_t k = 0; k < coverage.sets.size(); ++k)
+    for (std::size_t d = 0; d < coverage.sets[k].size(); ++d) {
+      const auto& c = coverage.sets[k][d];
+      out += fmt::format("{},{},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{},{}\n", k + 1, coverage.names[d],
+                         c.truth, c.lower, c.upper, c.mean, c.best, int(c.converged), int(c.inside()));
+    }
+  return out;
+}
+
+Coverage read_coverage(const Fit& fit, const std::string& file) {
+  const CsvTable csv(file, ',');
+  if (csv.note("fit") != double(mark(fit)))
+    throw std::runtime_error(file + ": of another fit, or of other options");
+  const auto number = csv.numbers("data_set"), truth = csv.numbers("truth"), lower = csv.numbers("lower_90"),
+             upper = csv.numbers("upper_90"), mean = csv.numbers("mean"), best = csv.numbers("best"),
+             converged = csv.numbers("converged");
+  Coverage out;
+  for (std::size_t i = 0; i < csv.rows(); ++i) {
+    const auto set = std::size_t(number[i]) - 1;
+    out.sets.resize(std::max(out.sets.size(), set + 1));
+    out.sets[set].push_back({truth[i], lower[i], upper[i], mean[i], best[i], converged[i] == 1});
+  }
+  return out;
+}
+
+std::string coverage_text(const Coverage& coverage) {
+  const auto converged = std::count_if(coverage.sets.begin(), coverage.sets.end(),
+                                       [](const auto& set) { return set.front().converged; });
+  std::string out = fmt::format("{} data sets, {} with converged chains; truth inside the 90 % interval:\n",
+                                coverage.sets.size(), converged);
+  for (std::size_t d = 0; d < coverage.names.size(); ++d)
+    out += fmt::format("{:<10}{:>8.1f} %\n", coverage.names[d], 100 * coverage.part(d));
+  return out + fmt::format("{:<10}{:>8.1f} %\n", "all", 100 * coverage.overall());
+}
+
+} // namespace calibration

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/element/command.hpp"
+#include "drivers/element.hpp"
+#include "drivers/element/failed_call.hpp"
+#include "drivers/element/pictures.hpp"
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <omp.h>
+#include <set>
+#include <stdexcept>
+#include <variant>
+
+namespace drivers {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A text file that says when it cannot be written.
+class OutputFile {
+public:
+  /// "" or "-": standard output.
+  explicit OutputFile(const std::string& name)
+      : name(name), to_standard(name.empty() || name == "-"),
+        file(to_standard ? stdout : std::fopen(name.c_str(), "w"),
+             to_standard ? [](std::FILE* f) { return std::fflush(f); } : std::fclose) {
+    if (!file) fail();
+  }
+  void write(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail();
+  }
+
+private:
+  [[noreturn]] void fail() const {
+    throw std::runtime_error(fmt::format("{}: cannot be written", to_standard ? "standard output" : name));
+  }
+  std::string name;
+  bool to_standard;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file;
+};
+
+std::string header(const std::vector<Quantity>& columns) {
+  std::string line = "stage,step";
+  for (const auto& c : columns) line += ',' + c.header();
+  return line + '\n';
+}
+
+void append_row(std::string& line, const ElementRow& row, const std::vector<Quantity>& columns) {
+  fmt::format_to(std::back_inserter(line), "{},{}", row.stage, row.step);
+  for (const auto& c : columns)
+    fmt::format_to(std::back_inserter(line), ",{:.12g}", c.value(row) + 0.0); // no -0
+  line += '\n';
+}
+
+std::string envelope_header() {
+  std::string line = "stage,direction_deg";
+  for (const char* what : {"strain_increment_{}", "stress_{}_Pa", "stress_change_{}_Pa"})
+    for (const char* c : {"11", "22", "33", "12", "23", "31"})
+      line += ',' + fmt::format(fmt::runtime(what), c);
+  return line + '\n';
+}
+
+std::string envelope_line(const EnvelopeRow& row) {
+  auto line = fmt::format("{},{:.12g}", row.stage, row.angle);
+  for (const auto* six : {&row.strain_increment, &row.stress, &row.stress_change})
+    for (const double v : *six) fmt::format_to(std::back_inserter(line), ",{:.12g}", v + 0.0);
+  return line + '\n';
+}
+
+bool has_envelope(const ElementCase& element) {
+  return std::any_of(element.stages.begin(), element.stages.end(), [](const auto& s) { return s.envelope; });
+}
+
+bool to_standard(const std::string& output) {
+  return output.empty() || output == "-";
+}
+
+std::string envelope_file(const ElementOptions& options) {
+  if (!options.envelope.empty()) return options.envelope;
+  if (to_standard(options.output))
+    throw std::runtime_error(
+        fmt::format("{}: an envelope stage needs a file: give -o or --envelope", options.path_file));
+  const fs::path path = options.output;
+  return path.parent_path() / (path.stem().string() + "_envelope.csv");
+}
+
+void run_case(const ElementCase& element, const ElementOptions& options) {
+  if (!options.resolved.empty()) OutputFile(options.resolved).write(element.resolved);
+  std::unique_ptr<OutputFile> probes;
+  if (has_envelope(element)) probes = std::make_unique<OutputFile>(envelope_file(options));
+  if (probes) probes->write(envelope_header());
+  OutputFile table(options.output);
+  const auto columns = quantities(element.material, element.critical);
+  table.write(header(columns));
+  std::string line;
+  run_element_case(
+      element,
+      [&](const ElementRow& row) {
+        line.clear();
+        append_row(line, row, columns);
+        table.write(line);
+      },
+      [&](const EnvelopeRow& row) { probes->write(envelope_line(row)); });
+}
+
+void run_case(FailedCall failed, const ElementOptions& options) {
+  std::string fault;
+  const auto table = repeated(failed, fault);
+  OutputFile(options.output).write(table);
+  if (!fault.empty())
+    throw std::runtime_error(fmt::format("{}: material {} {}: at time {:.9g} s", options.path_file,
+                                         failed.material.material.name, fault,
+                                         failed.call.increment.total_time));
+}
+
+int said(const std::exception& error) {
+  fmt::print(stderr, "simsand element: {}\n", error.what());
+  return 1;
+}
+
+/// What becomes of each path of a batch.
+std::vector<ElementOptions> jobs_of(const ElementBatch& batch) {
+  const bool several = batch.path_files.size() > 1, folder = several || fs::is_directory(batch.output);
+  if (!folder)
+    return {{batch.path_files.front(), batch.output, batch.resolved, batch.envelope, batch.settings}};
+  if (to_standard(batch.output)) throw std::runtime_error("several paths need a folder: give -o FOLDER");
+  if (several && (!batch.resolved.empty() || !batch.envelope.empty()))
+    throw std::runtime_error("--resolved and --envelope are for a single path");
+  std::error_code error;
+  fs::create_directories(batch.output, error);
+  if (error)
+    throw std::runtime_error(fmt::format("{}: cannot be created: {}", batch.output, error.message()));
+  std::vector<ElementOptions> jobs;
+  std::set<std::string> names;
+  for (const auto& file : batch.path_files) {
+    const auto name = fs::path(file).stem().string();
+    if (!names.insert(name).second)
+      throw std::runtime_error(fmt::format("{}: a second path named '{}'", file, name));
+    const auto output = (fs::path(batch.output) / (name + ".csv")).string();
+    jobs.push_back({file, output, batch.resolved, batch.envelope, batch.settings});
+  }
+  return jobs;
+}
+
+/// A path to be led along, or a call that failed in a run, to be made again.
+using Case = std::variant<ElementCase, FailedCall>;
+using Cases = std::vector<std::optional<Case>>;
+
+Case read_case(const ElementOptions& job) {
+  const auto document = read_toml(job.path_file, job.settings);
+  if (document.has("call")) return read_failed_call(document);
+  return read_element_case(document);
+}
+
+const LoadedMaterial& material_of(const Case& one) {
+  return std::visit([](const auto& c) -> const LoadedMaterial& { return c.material; }, one);
+}
+
+Cases read_cases(const std::vector<ElementOptions>& jobs, int& failed) {
+  Cases cases(jobs.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i) try {
+      cases[i] = read_case(jobs[i]);
+    } catch (const std::exception& error) {
+      failed = said(error);
+    }
+  return cases;
+}
+
+int run_cases(const Cases& cases, const std::vector<ElementOptions>& jobs, int wanted) {
+  std::atomic<int> failed = 0;
+  const bool own =
+      std::all_of(cases.begin(), cases.end(), [](const auto& c) { return !c || material_of(*c).is_simsand; });
+  const int threads = wanted > 0 ? wanted : own ? omp_get_max_threads() : 1;
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    if (cases[i]) try {
+        std::visit([&](const auto& c) { run_case(c, jobs[i]); }, *cases[i]);
+      } catch (const std::exception& error) {
+#pragma omp critical
+        failed = said(error);
+      }
+  return failed;
+}
+
+} // namespace
+
+int run_element(const ElementOptions& options) {
+  int failed = 0;
+  const auto cases = read_cases({options}, failed);
+  return failed ? failed : run_cases(cases, {options}, 1);
+}
+
+int run_elements(const ElementBatch& batch) {
+  try {
+    if (!batch.figures.empty() && to_standard(batch.output))
+      throw std::runtime_error("--figures needs tables in files: give -o");
+    const auto jobs = jobs_of(batch);
+    int failed = 0;
+    const auto cases = read_cases(jobs, failed);
+    failed = std::max(failed, run_cases(cases, jobs, batch.threads));
+    std::vector<Picture> pictures;
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+      if (const auto* path = cases[i] ? std::get_if<ElementCase>(&*cases[i]) : nullptr)
+        pictures.push_back({jobs[i].output, path->critical});
+    if (!batch.figures.empty()) draw_pictures(pictures, batch.figures);
+    return failed;
+  } catch (const std::exception& error) {
+    return said(error);
+  }
+}
+
+} // namespace drivers

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Repeats one call of a subroutine: the path file with a table `[call]` that a run writes when a material fails
+// (host/reproducer.hpp). Names, components and signs of the interface, not those of other path files.
+#pragma once
+#include "drivers/material_file.hpp"
+#include "host/reproducer.hpp"
+
+namespace drivers {
+
+/// A call, read.
+struct FailedCall {
+  LoadedMaterial material;
+  host::PointCall call;
+};
+
+/// Throws std::runtime_error with FILE:LINE.
+FailedCall read_failed_call(const TomlTable& document);
+
+/// Makes the call and returns its answer as a table (.csv): quantity, component, old, new. `fault` says why
+/// the answer cannot be used; empty if it can. Throws as host::call_vumat.
+std::string repeated(FailedCall& failed, std::string& fault);
+
+} // namespace drivers

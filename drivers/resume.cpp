@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/resume.hpp"
+#include "drivers/scene_difference.hpp"
+#include "drivers/scene_file.hpp"
+#include "drivers/version.hpp"
+#include "host/result_read.hpp"
+#include <fmt/format.h>
+#include <fstream>
+#include <spdlog/spdlog.h>
+#include <sstream>
+
+namespace drivers {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// FNV-1a, 64 bit: tells files apart that differ by accident.
+std::string hash_of(const fs::path& path) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : content(path)) hash = (hash ^ std::uint8_t(c)) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
+}
+
+struct Found {
+  fs::path path;
+  host::CheckpointHeader header;
+};
+
+/// The newest of the checkpoints that can be read.
+Found latest_readable(const fs::path& folder) {
+  const auto newest = checkpoint_path(folder), previous = previous_checkpoint_path(folder);
+  if (!fs::exists(newest) && !fs::exists(previous))
+    throw std::runtime_error(fmt::format("{}: no checkpoint to resume from", folder.string()));
+  try {
+    return {newest, host::verified_checkpoint(newest)};
+  } catch (const std::runtime_error& first) {
+    if (!fs::exists(previous)) throw;
+    Found found{previous, host::verified_checkpoint(previous)};
+    spdlog::warn("{}; going on from the one before, at {:.6g} s", first.what(), found.header.time);
+    return found;
+  }
+}
+
+/// Refuses a checkpoint that another program wrote, and another scene than the stored one.
+void check(const Found& found, const std::optional<std::string>& scene, const std::string& scene_name) {
+  const auto& header = found.header;
+  if (header.version != version)
+    throw std::runtime_error(fmt::format("{}: written by simsand {}, this is {}: only the same version makes "
+                                         "the same numbers",
+                                         found.path.string(), header.version, version));
+  if (header.compiler != compiler)
+    spdlog::warn("{}: written by a program built with {}, this one with {}: the last digits may differ",
+                 found.path.string(), header.compiler, compiler);
+  if (!scene) return;
+  if (const auto difference = scene_difference(header.scene, *scene))
+    throw std::runtime_error(
+        fmt::format("{}: {}; a run goes on only with the scene it began with", scene_name, *difference));
+}
+
+void check_library(const Found& found, const host::Scene& scene) {
+  if (hash_of(scene.material.library.path) != found.header.library_hash)
+    spdlog::warn("{}: the material library has changed since {} was written: the numbers may differ from "
+                 "those of an uninterrupted run",
+                 scene.material.library.path, found.path.string());
+}
+
+/// The folder that `what` names or lies in.
+fs::path folder_of(const fs::path& what) {
+  if (fs::is_directory(what)) return what;
+  return what.has_parent_path() ? what.parent_path() : fs::path(".");
+}
+
+} // namespace
+
+fs::path checkpoint_path(const fs::path& folder) {
+  return folder / "checkpoint.h5";
+}
+
+fs::path previous_checkpoint_path(const fs::path& folder) {
+  return folder / "checkpoint_previous.h5";
+}
+
+std::optional<Resumption> find_resumption(const std::string& what, const std::string& given_folder) {
+  if (!fs::exists(what)) throw std::runtime_error(fmt::format("{}: no such file or folder", what));
+  const bool is_scene = !fs::is_directory(what) && fs::path(what).extension() != ".h5";
+  Resumption resumption;
+  std::optional<std::string> expected;
+  fs::path folder;
+  std::string scene_name = what;
+  if (is_scene) {
+    resumption.scene = read_scene(what);
+    expected = resumption.scene.resolved;
+    folder = given_folder.empty() ? resumption.scene.output_folder : given_folder;
+  } else {
+    folder = folder_of(what);
+    scene_name = (folder / "scene.toml").string();
+    if (fs::exists(scene_name)) expected = read_scene(scene_name).resolved;
+  }
+  if (host::is_complete_result(folder / "result.h5")) {
+    remove_checkpoints(folder);
+    return {};
+  }
+  const auto found = latest_readable(folder);
+  check(found, expected, scene_name);
+  if (!is_scene) resumption.scene = read_scene(found.path.string());
+  check_library(found, resumption.scene);
+  resumption.scene.output_folder = folder.string();
+  resumption.scene.resolved = found.header.scene;
+  resumption.checkpoint = found.path;
+  return resumption;
+}
+
+host::CheckpointHeader header_of(const host::Scene& scene) {
+  const auto& library = scene.material.library.path;
+  const std::string geometry = host::with_geometry(scene.geometry, [](auto g) { return g.name; });
+  return {scene.resolved, version, compiler, geometry, library, hash_of(library)};
+}
+
+bool remove_checkpoints(const fs::path& folder) {
+  std::error_code ignored;
+  const bool newest = fs::remove(checkpoint_path(folder), ignored);
+  return fs::remove(previous_checkpoint_path(folder), ignored) || newest;
+}
+
+} // namespace drivers

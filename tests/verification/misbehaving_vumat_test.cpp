@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A Fortran VUMAT that breaks one rule after the other, in both hosts: no crash, no silent harm, one clear error;
+// or no effect at all where the host can bear it.
+#include "tests/verification/vumat_program.hpp"
+#include <H5Cpp.h>
+#include <algorithm>
+
+namespace {
+
+using namespace tests;
+
+/// misbehaves.f with rule `kind` broken after `time`.
+std::string breaking(int kind, double time = 0.005, const std::string& extra = "", int states = 1) {
+  return material("misbehaves", fmt::format("[{}, {}, 2e6, 0.25]", kind, time), states, extra);
+}
+
+const std::string shear =
+    "[[stage]]\ncontrol = \"simple-shear-undrained\"\nshear_strain = 0.01\nincrements = 10\n";
+
+/// One line on standard error with these parts, status not 0, and a readable result of what came before.
+void expect_stopped(const Outcome& outcome, const std::vector<std::string>& parts) {
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  for (const auto& part : parts)
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << "'" << part << "' in\n" << outcome.err;
+}
+
+void expect_readable_result(int samples = 3) {
+  const H5::H5File file((folder() / "results/result.h5").string(), H5F_ACC_RDONLY);
+  const auto times = file.openDataSet("/series/time");
+  EXPECT_GE(times.getSpace().getSimpleExtentNpoints(), samples);
+}
+
+void expect_stopped_everywhere(int kind, const std::vector<std::string>& parts) {
+  expect_stopped(run_scene(breaking(kind)), parts);
+  expect_readable_result();
+  expect_stopped(run_scene(breaking(kind), "axisymmetric", 3), parts);
+  expect_stopped(run_path(breaking(kind, 0.35), shear), parts);
+}
+
+TEST(Misbehaving, NotAtAll) {
+  const auto outcome = run_scene(breaking(0));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(Misbehaving, WritesBeyondArrays) {
+  expect_stopped_everywhere(1, {"material misbehaves: its subroutine wrote beyond the end of stateNew"});
+  expect_stopped_everywhere(2, {"wrote beyond the end of stressNew"});
+  expect_stopped_everywhere(3, {"wrote before the start of stressNew"});
+  expect_stopped_everywhere(4, {"wrote beyond the end of strainInc"});
+}
+
+TEST(Misbehaving, WritesToInputs) {
+  expect_stopped_everywhere(5, {"material misbehaves: its subroutine wrote to strainInc, which is an input"});
+  expect_stopped_everywhere(6, {"wrote to stressOld, which is an input"});
+  expect_stopped_everywhere(7, {"wrote to props, which is an input"});
+  for (const int kind : {5, 6, 7}) {
+    EXPECT_EQ(run_scene(breaking(kind, 0.005, "may_write_inputs = true")).status, 0);
+    EXPECT_EQ(run_path(breaking(kind, 0.35, "may_write_inputs = true"), shear).out,
+              run_path(breaking(0), shear).out);
+  }
+}
+
+TEST(Misbehaving, OverwritesScalarsOrLeavesOutputsToTheHost) {
+  ASSERT_EQ(run_scene(breaking(0)).status, 0);
+  const auto position = last("position"), stress = last("stress");
+  for (const int kind : {8, 10}) {
+    const auto outcome = run_scene(breaking(kind));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(last("position"), position);
+    EXPECT_EQ(last("stress"), stress);
+  }
+  EXPECT_EQ(run_path(breaking(8, 0.35), shear).out, run_path(breaking(0), shear).out);
+}
+
+TEST(Misbehaving, LeavesStressUnwritten) {
+  const auto outcome = run_scene(breaking(9));
+  expect_stopped(outcome,
+                 {"material misbehaves did not write component 1 of stressNew: particle ", "at time 0.005"});
+  expect_stopped(run_path(breaking(9, 0.35), shear), {"not finite"});
+}
+
+TEST(Misbehaving, ReturnsNaN) {
+  expect_stopped(run_scene(breaking(11)),
+                 {"returned a number that is not finite, component 1 of stressNew: particle ",
+                  "at time 0.005", "stress before (", "strain increment (",
+                  "(replay: simsand element results/failed_point.toml)"});
+  expect_readable_result();
+  // The file that was written does the same again, to the last digit of the inputs.
+  const auto file = content(folder() / "results/failed_point.toml");
+  EXPECT_NE(file.find("# material misbehaves returned a number"), std::string::npos);
+  const auto again = simsand("element results/failed_point.toml");
+  expect_stopped(again,
+                 {"simsand element: results/failed_point.toml: material misbehaves returned a number that is "
+                  "not finite, component 1 of stressNew: at time 0.005"});
+  EXPECT_EQ(again.out.substr(0, 27), "quantity,component,old,new\n");
+  // And answers as it should before the time from which the subroutine fails.
+  auto mended = file;
+  const auto at = mended.find("0.005", mended.find("properties"));
+  mended.replace(at, 5, "100.0");
+  std::ofstream(folder() / "mended.toml") << mended;
+  const auto good = simsand("element mended.toml");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_EQ(good.out.find("nan"), std::string::npos);
+  // In the data check, before anything else.
+  expect_stopped(run_scene(breaking(18, -1)),
+                 {"not finite", "from words beyond an array", "at time 0 s", "failed_point.toml"});
+}
+
+TEST(Misbehaving, AReproducerWithUnknownOrMissingKeysIsRefused) {
+  run_scene(breaking(11));
+  const auto file = content(folder() / "results/failed_point.toml");
+  const auto with = [&](const std::string& old, const std::string& now) {
+    auto text = file;
+    text.replace(text.find(old), old.size(), now);
+    std::ofstream(folder() / "changed.toml") << text;
+    return simsand("element changed.toml");
+  };
+  expect_stopped(with("strainInc", "strianInc"), {"changed.toml:", "strainInc"});
+  expect_stopped(with("nshr = 1", "nshr = 2"),
+                 {"changed.toml:", "key 'call.nshr': expected 1 or 3, found 2"});
+  expect_stopped(with("dt = ", "dt = -"), {"changed.toml:", "key 'call.dt'"});
+}
+
+TEST(Misbehaving, AsksForTheEnd) {
+  expect_stopped_everywhere(
+      12, {"material misbehaves: its subroutine asked for the end of the analysis (xplb_exit)"});
+  expect_stopped_everywhere(
+      14, {"material misbehaves: its subroutine ended the analysis with \"cannot go on after "});
+}
+
+TEST(Misbehaving, Stops) {
+  // The process ends at once, as by a kill: samples since the last write are lost.
+  const auto outcome = run_scene(breaking(15));
+  expect_stopped(outcome,
+                 {"material misbehaves: its subroutine ended the program (STOP or exit) at time 0.005"});
+  expect_readable_result(1);
+  expect_stopped(run_scene(breaking(15), "plane_strain", 3, 20), {"ended the program"});
+  expect_readable_result(1);
+  expect_stopped(run_path(breaking(15, 0.35), shear), {"ended the program"});
+}
+
+TEST(Misbehaving, SpeaksThroughAbaqus) {
+  auto outcome = run_path(breaking(13, 0.95), shear);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("message of material misbehaves: all is sand\n"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("warning of material misbehaves: 7 of 8 at 2.5\n"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("error of material misbehaves: no arrays: 0\n"), std::string::npos)
+      << outcome.err;
+  outcome = run_scene(breaking(17, 0.0));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("message of material misbehaves: results in /results, 0 of 1"),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST(Misbehaving, IsNotThreadSafe) {
+  const auto run = [](const std::string& extra, int threads) {
+    const auto outcome = run_scene(breaking(16, 0.0195, extra, 2), "plane_strain", threads, 20);
+    const auto met = last("state_2");
+    return std::pair{outcome.status, *std::max_element(met.begin(), met.end())};
+  };
+  EXPECT_EQ(run("", 3).second, 1) << "three threads meet in it";
+  EXPECT_EQ(run("", 1), (std::pair{0, 0.0}));
+  const auto position = last("position"), stress = last("stress");
+  EXPECT_EQ(run("serial = true", 3), (std::pair{0, 0.0})) << "not in serial mode";
+  EXPECT_EQ(last("position"), position);
+  EXPECT_EQ(last("stress"), stress);
+}
+
+TEST(Misbehaving, Throws) {
+  const auto throwing = [](int what) {
+    return material("libthrows", fmt::format("[0.005, 2e6, 0.25, {}]", what), 0);
+  };
+  expect_stopped(run_scene(throwing(0)),
+                 {"material libthrows: its subroutine threw an exception at time 0.005",
+                  ": no tangent, in the block of "});
+  expect_readable_result();
+  expect_stopped(run_scene(throwing(1), "plane_strain", 3),
+                 {"its subroutine threw an exception at time 0.005"});
+}
+
+TEST(Misbehaving, NeedsWhatNoHostHas) {
+  expect_stopped(run_scene(material("libneeds_more", "[1]", 0)),
+                 {"scene.toml:", "key 'library'", "undefined symbol: vgetvrm_"});
+}
+
+} // namespace
