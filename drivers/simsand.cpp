@@ -193,13 +193,15 @@ void add_calibrate(CLI::App& app) {
   });
 }
 
-/// Threads that wait at the end of a stage sleep. By default they spin, and where another program needs
-/// the same cores a run on two threads then takes ten times as long. OpenMP reads its settings before
-/// main, so the program starts anew with this one, unless the user has chosen.
+/// Threads that wait at the end of a stage sleep after a moment. By default they spin for milliseconds, and where
+/// another program needs the same cores a run on two threads then takes ten times as long; without any spinning two
+/// free cores are no faster than one. OpenMP reads its settings before main, so the program starts anew with
+/// these, unless the user has chosen.
 void wait_passively(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY")) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
-  execv("/proc/self/exe", argv); // returns only if it fails: then go on as we are
+  setenv("GOMP_SPINCOUNT", "1000", 0); // turns: some microseconds
+  execv("/proc/self/exe", argv);       // returns only if it fails: then go on as we are
 }
 
 } // namespace

@@ -145,7 +145,8 @@ def heights(runs, dem, packing="dense"):
         ax.set_xlabel("time $t$ / s")
     axes[0].set_ylabel("height $h/h_0$")
     axes[0].set_ylim(0, 1.08)
-    axes[-1].legend(fontsize=8)
+    lines = {l.get_label(): l for ax in axes for l in ax.get_lines() if not l.get_label().startswith("_")}
+    axes[0].legend(lines.values(), lines.keys(), fontsize=8, loc="lower left")
     return fig
 
 
