@@ -3,6 +3,7 @@
 #include "drivers/material_file.hpp"
 #include "drivers/toml_table.hpp"
 #include "host/output.hpp"
+#include "host/result_read.hpp"
 #include "vumat/parameters.hpp"
 #include <cmath>
 #include <filesystem>

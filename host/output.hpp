@@ -86,7 +86,4 @@ private:
 /// The folder of the snapshots of a run that is not complete: NAME.parts beside NAME.h5.
 std::filesystem::path parts_folder(const std::filesystem::path& result);
 
-/// The resolved scene in a result file or checkpoint. Throws std::runtime_error naming the file.
-std::string stored_scene(const std::filesystem::path& path);
-
 } // namespace host

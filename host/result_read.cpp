@@ -118,4 +118,20 @@ bool is_complete_result(const std::filesystem::path& path) {
   }
 }
 
+std::string stored_scene(const std::filesystem::path& path) {
+  H5::Exception::dontPrint();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw std::runtime_error(fmt::format("{}: no such file", path.string()));
+  try {
+    std::string scene;
+    const auto dataset = open_to_read(path).openDataSet("scene");
+    dataset.read(scene, dataset.getStrType());
+    return scene;
+  } catch (const H5::Exception&) {
+    throw std::runtime_error(
+        fmt::format("{}: not a readable result file with a stored scene", path.string()));
+  }
+}
+
 } // namespace host

@@ -21,6 +21,9 @@ struct StoredRun {
 /// Throws std::runtime_error, one line that names the file, if it is neither.
 StoredRun read_stored_run(const std::filesystem::path& path);
 
+/// The resolved scene in a result file or checkpoint. Throws std::runtime_error naming the file.
+std::string stored_scene(const std::filesystem::path& path);
+
 /// False also if there is no such file or it cannot be read.
 bool is_complete_result(const std::filesystem::path& path);
 

@@ -2,6 +2,7 @@
 // The result file: what is written is what is read, in the order of creation, also after an exception,
 // a kill and a full disk; errors are one line that names the file.
 #include "host/output.hpp"
+#include "host/result_read.hpp"
 #include <H5Cpp.h>
 #include <cmath>
 #include <csignal>
