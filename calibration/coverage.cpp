@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/coverage.hpp"
-#include "calibration/csv_table.hpp"
 #include "calibration/posterior.hpp"
+#include "drivers/csv_table.hpp"
 #include <algorithm>
 #include <exception>
 #include <fmt/format.h>
@@ -100,7 +100,7 @@ std::string coverage_csv(const Fit& fit, const Coverage& coverage) {
 }
 
 Coverage read_coverage(const Fit& fit, const std::string& file) {
-  const CsvTable csv(file, ',');
+  const drivers::CsvTable csv(file);
   if (csv.note("fit") != double(mark(fit)))
     throw std::runtime_error(file + ": of another fit, or of other options");
   const auto number = csv.numbers("data_set"), truth = csv.numbers("truth"), lower = csv.numbers("lower_90"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/test_file.hpp"
-#include "calibration/csv_table.hpp"
+#include "drivers/csv_table.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 namespace calibration {
 namespace {
 
+using drivers::CsvTable;
 using drivers::TomlTable;
 using drivers::Words;
 
@@ -42,7 +43,7 @@ void to_logarithmic(std::vector<double>& values, const TomlTable& table, const C
       throw std::runtime_error(
           fmt::format("{}:{}: column '{}': an engineering strain of {} is 100 % or more: check the "
                       "column and its unit",
-                      csv.file, csv.line(i), column, values[i]));
+                      csv.file(), csv.line(i), column, values[i]));
     values[i] = -std::log1p(-values[i]);
   }
 }
@@ -51,7 +52,7 @@ std::vector<double> read_column(const TomlTable& table, const CsvTable& csv, boo
                                 bool volumetric) {
   const auto column = table.text("column");
   if (!csv.has(column))
-    table.fail("column", fmt::format("a column of {}: {}", csv.file, csv.column_names()),
+    table.fail("column", fmt::format("a column of {}: {}", csv.file(), csv.column_names()),
                fmt::format("\"{}\"", column));
   auto values = csv.numbers(column);
   double factor = read_unit(table, stress);
@@ -164,9 +165,7 @@ LabTest read_test(const TomlTable& table, const std::optional<TomlTable>& column
   test.weight = table.number("weight", {0, 1e6}, 1);
   test.held_out = table.flag("held_out", false);
   const bool measured = table.has("file");
-  const auto separator = measured ? table.text("separator", {",", ";", "\t", " "}, ",") : ",";
-  const auto csv =
-      measured ? std::optional<CsvTable>(std::in_place, table.path("file"), separator.front()) : std::nullopt;
+  const auto csv = measured ? std::optional<CsvTable>(table.path("file")) : std::nullopt;
   test.specimen = read_specimen(table, csv);
   if (!measured) {
     make_strain(table, test);
@@ -193,7 +192,7 @@ LabTest read_test(const TomlTable& table, const std::optional<TomlTable>& column
       throw std::runtime_error(
           fmt::format("{}:{}: the axial strain turns back: monotonic tests only; check the column, and "
                       "remove unloading",
-                      csv->file, csv->line(i)));
+                      csv->file(), csv->line(i)));
   check_plausible(raw, test.specimen, test.curves, fmt::format("{}: test '{}'", table.where(), test.name));
   test.strain = raw.strain;
   test.specimen.end_strain = raw.strain.back();
