@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what is in results/: triaxial curves, deposits beside the laboratory's laws, outlines, h(t).
+"""Draws what is in results/: triaxial curves, deposits beside the laboratory's laws, outlines in time, h(t).
 
     figures.py [OUT [RESULTS]]     OUT: results/dem/figures at the root of the repository
 
@@ -108,6 +108,29 @@ def draw_laws(results, out):
     fig.savefig(out / "laws.png", dpi=120)
 
 
+def draw_outlines(results, out, aspect_ratio):
+    """Outlines in time of the six columns of one aspect ratio, DEM's figures 5 and 6 of the paper."""
+    fig, axes = plt.subplots(2, 3, figsize=(13, 6), sharex=True, sharey=True, layout="constrained")
+    for path in main_set(results, f"column_*_{aspect_ratio}.h5"):
+        with h5py.File(path) as f:
+            shape, packing, r0 = f.attrs["shape"], f.attrs["packing"], f.attrs["radius_m"]
+            ax = axes[["dense", "loose"].index(packing), ["SS", "TS", "ES"].index(shape)]
+            t, r = f["time"][:], f["outline/radius"][:]
+            for k in sorted({np.abs(t - moment).argmin() for moment in (0, 0.05, 0.1, 0.15, 0.2, 0.3, t[-1])}):
+                colour = plt.cm.viridis(min(1, t[k] / 0.4))
+                ax.plot(r / r0, f["outline/height"][k] / r0, color=colour, label=f"{t[k]:.2f} s")
+            ax.legend(fontsize=8)
+    for (row, column), ax in np.ndenumerate(axes):
+        shape, packing = ("SS", "TS", "ES")[column], ("dense", "loose")[row]
+        ax.set_title(f"{shape} {packing}" + ("" if ax.lines else ": missing"))
+        ax.set(xlim=(0, 4), ylim=(0, 1.1 * aspect_ratio))
+        ax.grid(alpha=0.3)
+    fig.supxlabel("$r/r_0$")
+    fig.supylabel("highest grain surface over $r_0$, mean of cells of two diameters")
+    fig.savefig(out / f"outlines_a{aspect_ratio}.png", dpi=100)
+    plt.close(fig)
+
+
 def draw_column(path, out):
     """Outlines in time, height and fronts, displacement where the grains ended."""
     with h5py.File(path) as f:
@@ -143,6 +166,7 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     draw_triaxial(results, out)
     draw_laws(results, out)
+    draw_outlines(results, out, 2)
     for path in sorted(results.glob("column_*.h5")):
         draw_column(path, out)
 
