@@ -117,7 +117,7 @@ def draw_outlines(results, out, aspect_ratio):
             ax = axes[["dense", "loose"].index(packing), ["SS", "TS", "ES"].index(shape)]
             t, r = f["time"][:], f["outline/radius"][:]
             for k in sorted({np.abs(t - moment).argmin() for moment in (0, 0.05, 0.1, 0.15, 0.2, 0.3, t[-1])}):
-                colour = plt.cm.viridis(min(1, t[k] / 0.4))
+                colour = plt.cm.viridis(min(1.0, t[k] / 0.4))
                 ax.plot(r / r0, f["outline/height"][k] / r0, color=colour, label=f"{t[k]:.2f} s")
             ax.legend(fontsize=8)
     for (row, column), ax in np.ndenumerate(axes):
