@@ -13,9 +13,10 @@ inline constexpr int largest_iteration_count = 100, largest_newton_count = 5;
 template <class T> inline constexpr T tolerance = std::max(T(1e-12), 8 * std::numeric_limits<T>::epsilon());
 template <class T> inline constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
 
-/// Change of ln p that the last step by series may make: its error in p and M is of the order of its square.
+/// Relative error of M that the last step by series may leave, and the largest change of ln p of such a step.
 template <class T>
-inline constexpr T largest_last_step = std::max(T(1e-7), 8 * std::numeric_limits<T>::epsilon());
+inline constexpr T series_error = std::max(T(1e-12), 4 * std::numeric_limits<T>::epsilon());
+inline constexpr double largest_last_step = 1e-3;
 
 /// What does not change while the mean stress at the end of the substep is sought.
 template <class Real> struct Increment {
@@ -141,21 +142,31 @@ Candidate<Real> nearby(const MaterialOf<Real>& m, const Increment<Real>& in, con
   return candidate(m, in, end, shifted(m, c.slopes, end.log_ratio - c.pressure.log_ratio));
 }
 
-/// Newton's rule from a first candidate, of each lane until it is solved. Steps by series find the neighbourhood
-/// of the answer; a full evaluation there is corrected by a last one, too short for an error. Lanes that
-/// this leaves unsolved, or that head for y = 0, are for shorter steps.
+/// Whether a step by series is short enough: what it leaves out of M grows with the square of the change.
 template <class Real>
-Candidate<Real> newton(const MaterialOf<Real>& m, const Increment<Real>& in, Candidate<Real> c,
-                       const Mask<Real>& ignored, Mask<Real>& converged) {
+Mask<Real> short_step(const MaterialOf<Real>& m, const Candidate<Real>& from, const Candidate<Real>& to) {
+  const Real change = abs(to.pressure.log_ratio - from.pressure.log_ratio);
+  const Real rate = std::max(m.given.n_p, m.given.n_d) * abs(from.slopes.density_change);
+  const Real left_out = change * change * rate * (1 + rate);
+  return (left_out <= Real(series_error<Scalar<Real>>)) & (change <= Real(largest_last_step));
+}
+
+/// Newton's rule from the start, of each lane until it is solved. A step by series finds the neighbourhood of the
+/// answer; a full evaluation there is corrected by a last step, too short for an error. Lanes that this leaves
+/// unsolved, or that head for y = 0, are for shorter steps.
+template <class Real>
+Candidate<Real> newton(const MaterialOf<Real>& m, const Increment<Real>& in, const Mask<Real>& ignored,
+                       Mask<Real>& converged) {
   const Real x_most = largest_multiplier(m, in);
+  const Real denser = 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
+  auto c = candidate(m, in, in.start, denser_by(m, in.slopes_start, denser, in.sin3theta));
   for (int i = 0; i < 2; ++i) c = nearby(m, in, c);
   converged = c.residual < c.residual;
   Real y = c.pressure.measure;
   for (int i = 0;; ++i) {
     c = candidate(m, in, pressure_of_measure(m, max(y, Real(0))));
     const auto next = nearby(m, in, c);
-    const Real change = abs(next.pressure.log_ratio - c.pressure.log_ratio);
-    const Mask<Real> found = solved(m, in, next, x_most) & (change <= largest_last_step<Scalar<Real>>);
+    const Mask<Real> found = solved(m, in, next, x_most) & short_step(m, c, next);
     converged = converged | found;
     if (i == largest_newton_count || all(converged | ignored)) return next;
     y = select(converged, y, next.pressure.measure);

@@ -153,27 +153,45 @@ template <class Real> Slopes<Real> at_angle(Slopes<Real> M, Real sin3theta) {
   return M;
 }
 
+/// A void ratio beside the critical one.
+template <class Real> struct Density {
+  Real log_ratio; ///< ln (e_c / e), positive in dense sand
+  Real change;    ///< d ln e_c / d ln p above p_min
+};
+
+template <class Real> Density<Real> density(const MaterialOf<Real>& m, Real e, const Pressure<Real>& p) {
+  const Real e_c = critical_void_ratio(m, p.log_ratio);
+  return {log(e_c / e), select(e_c > smallest_void_ratio<Scalar<Real>>,
+                               m.given.zeta * (1 - m.given.e_ref / e_c), Real(0))};
+}
+
+template <class Real> Real peak_tangent(const MaterialOf<Real>& m, Real dense) {
+  return bounded_exp(m.given.n_p * dense) * m.tan_phi; // (4)
+}
+
+template <class Real> Slopes<Real> slopes(const MaterialOf<Real>& m, const Density<Real>& d, Real sin3theta) {
+  Slopes<Real> M;
+  M.peak_tangent = peak_tangent(m, d.log_ratio);
+  M.transformation_tangent = bounded_exp(-m.given.n_d * d.log_ratio) * m.tan_phi; // (5)
+  M.density_change = d.change;
+  return at_angle(M, sin3theta);
+}
+
 template <class Real>
 Slopes<Real> slopes(const MaterialOf<Real>& m, Real e, const Pressure<Real>& p, Real sin3theta) {
-  const Real e_c = critical_void_ratio(m, p.log_ratio);
-  const Real dense = log(e_c / e); // positive in dense sand
-  Slopes<Real> M;
-  M.peak_tangent = bounded_exp(m.given.n_p * dense) * m.tan_phi;            // (4)
-  M.transformation_tangent = bounded_exp(-m.given.n_d * dense) * m.tan_phi; // (5)
-  M.density_change =
-      select(e_c > smallest_void_ratio<Scalar<Real>>, m.given.zeta * (1 - m.given.e_ref / e_c), Real(0));
-  return at_angle(M, sin3theta);
+  return slopes(m, density(m, e, p), sin3theta);
 }
 
 /// Largest change of ln (e_c / e) that `denser_by` sees: with n_p, n_d <= 20 tangents stay positive.
 inline constexpr double largest_series_change = 0.04;
 
-/// Slopes, but for their Lode angle, after a small change of ln (e_c / e).
-template <class Real> Slopes<Real> denser_by(const MaterialOf<Real>& m, Slopes<Real> M, Real change) {
+/// Slopes near enough for a first candidate, after a change of ln (e_c / e) and at another Lode angle.
+template <class Real>
+Slopes<Real> denser_by(const MaterialOf<Real>& m, Slopes<Real> M, Real change, Real sin3theta) {
   const Real bounded = min(max(change, Real(-largest_series_change)), Real(largest_series_change));
   M.peak_tangent = M.peak_tangent * (1 + m.given.n_p * bounded);
   M.transformation_tangent = M.transformation_tangent * (1 - m.given.n_d * bounded);
-  return M;
+  return at_angle(M, sin3theta);
 }
 
 /// Slopes after a small change of ln p.

@@ -56,10 +56,9 @@ __attribute__((flatten, noinline)) void advance(const Material<Real>& m, Progres
   auto end = elastic_end(m, trial);
   Mask<Lane> solved = trial.inside, parted = zero > zero;
   if (!all(trial.inside | over)) {
-    turn_deviator(m, trial);
-    const auto found = newton(m, trial.in, candidate(m, trial.in, trial.pressure, trial.slopes),
-                              trial.inside | over, solved);
-    const auto plastic = plastic_end(m, trial, found);
+    const auto flow = turn_deviator(m, trial);
+    const auto found = newton(m, trial.in, trial.inside | over, solved);
+    const auto plastic = plastic_end(m, trial, flow, found);
     end.point = select(trial.inside, end.point, plastic.point);
     end.dissipation = select(trial.inside, end.dissipation, plastic.dissipation);
     end.error = select(trial.inside, end.error, plastic.error);

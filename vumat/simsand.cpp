@@ -43,12 +43,13 @@ Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>&
                                   const SymmetricTensor<Real, N>& strain) {
   auto trial = elastic_trial(m, old, strain);
   if (trial.inside) return {elastic_end(m, trial)};
-  turn_deviator(m, trial);
+  const auto flow = turn_deviator(m, trial);
   Attempt<Real, N> out;
-  const auto end = solve(m, trial.in, candidate(m, trial.in, trial.pressure), out.converged);
+  const auto first = candidate(m, trial.in, trial.pressure, slopes(m, trial.density, trial.in.sin3theta));
+  const auto end = solve(m, trial.in, first, out.converged);
   const bool parted = end.pressure.measure == 0;
   static_cast<Substep<Real, N>&>(out) =
-      parted ? parted_end<Real, N>(m, trial.in, end) : plastic_end(m, trial, end);
+      parted ? parted_end<Real, N>(m, trial.in, end) : plastic_end(m, trial, flow, end);
   out.collapsed = parted && trial.measure > 0;
   return out;
 }

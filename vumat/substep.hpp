@@ -24,11 +24,17 @@ template <class Real, int N> struct Trial {
   SymmetricTensor<Real, N> s_old, s_trial; ///< deviators
   Real measure;                            ///< y, not bounded
   Pressure<Real> pressure;
-  Slopes<Real> slopes; ///< near enough for a first candidate
+  Density<Real> density;
+  Real peak; ///< M_p
   Real q, shear_modulus;
-  Mask<Real> inside;                  ///< the step is elastic
-  SymmetricTensor<Real, N> direction; ///< of the deviator at the end
-  Real q_direction, turn;             ///< invariant of `direction`; 2 (1 - cos psi)
+  Real f;            ///< of (8)
+  Mask<Real> inside; ///< the step is elastic
+};
+
+/// The deviator that plastic flow leads to.
+template <class Real, int N> struct Flow {
+  SymmetricTensor<Real, N> direction;
+  Real q, turn; ///< invariant of `direction`; 2 (1 - cos psi)
 };
 
 template <class Real, int N>
@@ -56,7 +62,6 @@ Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& ol
   in.q_start = deviatoric_stress(t.s_old);
   in.stress_work = contract(t.s_old, e_dev);
   in.strain_norm = contract(e_dev, e_dev);
-  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(t.s_old, in.q_start));
 
   t.measure = in.start.measure + in.stiffening * in.volumetric;
   t.pressure = pressure_of_measure(m, max(t.measure, Real(0)));
@@ -64,48 +69,34 @@ Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& ol
   t.s_trial = add(t.s_old, 2 * t.shear_modulus, e_dev);
   t.q = deviatoric_stress(t.s_trial);
   in.sin3theta = sin_3theta(t.s_trial, t.q);
-  const Real share = mobilised(m, in.eps_d);
-  // Slopes by series from those of the start, unless their error could hide which side of the yield surface it is.
-  const Real p_ratio = t.pressure.log_ratio - in.start.log_ratio;
-  const Real by_pressure = in.slopes_start.density_change * p_ratio,
-             by_void_ratio = 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
-  const Real denser = by_pressure + by_void_ratio;
-  t.slopes = at_angle(denser_by(m, in.slopes_start, denser), in.sin3theta);
-  Real f = yield_function(t.q, t.pressure.mean_stress, t.slopes.peak, share); // (8)
-  // What the series leave out grows with either part, though they may cancel, and with the curvature of (3).
-  const Real exponent = (m.given.n_p + 1) * (abs(by_pressure) + abs(by_void_ratio));
-  const Real curvature = m.given.zeta * abs(p_ratio);
-  const Real doubt = t.pressure.mean_stress * (2 * exponent * (exponent + 3 * curvature) + Real(1e-9));
-  const Mask<Real> too_far = (curvature > Real(1)) | (abs(denser) > Real(largest_series_change)) |
-                             !(in.slopes_start.density_change < Real(0)); // e_c at its floor, or lambda = 0
-  if (const Mask<Real> close = (!(abs(f) > doubt)) | too_far; !all(!close)) {
-    const auto exact = slopes(m, in.e_end, t.pressure, in.sin3theta);
-    f = select(close, yield_function(t.q, t.pressure.mean_stress, exact.peak, share), f);
-  }
-  t.inside = (t.measure > 0) & (f <= rounding<Scalar<Real>> * t.pressure.mean_stress);
+  t.density = density(m, in.e_end, t.pressure);
+  t.peak = slope(peak_tangent(m, t.density.log_ratio), in.sin3theta).value;
+  t.f = yield_function(t.q, t.pressure.mean_stress, t.peak, mobilised(m, in.eps_d)); // (8)
+  t.inside = (t.measure > 0) & (t.f <= rounding<Scalar<Real>> * t.pressure.mean_stress);
   return t;
 }
 
 /// The flow direction at mid-step (19): where half of the plastic flow is along the deviator that reaches the yield
 /// surface and half along that at the end, the latter is parallel to s_trial - 3 G x / (2 q) s.
-template <class Real, int N> void turn_deviator(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+template <class Real, int N> Flow<Real, N> turn_deviator(const MaterialOf<Real>& m, Trial<Real, N>& t) {
   Increment<Real>& in = t.in;
-  const Real share = mobilised(m, in.eps_d);
-  const Real f_start = yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, share);
-  const Real f_trial = yield_function(t.q, t.pressure.mean_stress, t.slopes.peak, share);
+  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(t.s_old, in.q_start));
+  const Real f_start =
+      yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, mobilised(m, in.eps_d));
   const Real tiny_stress = tiny<Scalar<Real>>;
-  const Real elastic_part = min(max(-f_start / max(f_trial - f_start, tiny_stress), Real(0)), Real(1));
+  const Real elastic_part = min(max(-f_start / max(t.f - f_start, tiny_stress), Real(0)), Real(1));
   const auto s_yield = add(scale(1 - elastic_part, t.s_old), elastic_part, t.s_trial);
   const Real q_yield = deviatoric_stress(s_yield);
   const Real x =
-      plastic_multiplier(t.q, t.shear_modulus, t.pressure.mean_stress * t.slopes.peak, m.given.k_p, in.eps_d);
+      plastic_multiplier(t.q, t.shear_modulus, t.pressure.mean_stress * t.peak, m.given.k_p, in.eps_d);
   const Real back = min(Real(1.5) * t.shear_modulus * x / max(q_yield, tiny_stress), Real(1));
-  t.direction = add(t.s_trial, -back, s_yield);
-  t.q_direction = deviatoric_stress(t.direction);
-  in.sin3theta = sin_3theta(t.direction, t.q_direction);
-  t.slopes = at_angle(t.slopes, in.sin3theta);
-  const Real cosine = Real(1.5) * contract(s_yield, t.direction) / max(q_yield * t.q_direction, tiny_stress);
-  t.turn = max(2 * (1 - cosine), Real(0));
+  Flow<Real, N> flow;
+  flow.direction = add(t.s_trial, -back, s_yield);
+  flow.q = deviatoric_stress(flow.direction);
+  in.sin3theta = sin_3theta(flow.direction, flow.q);
+  const Real cosine = Real(1.5) * contract(s_yield, flow.direction) / max(q_yield * flow.q, tiny_stress);
+  flow.turn = max(2 * (1 - cosine), Real(0));
+  return flow;
 }
 
 template <class Real, int N>
@@ -128,22 +119,23 @@ template <class Real> Real plastic_work(const Increment<Real>& in, const Candida
 
 /// The point at the end that `solve` or `newton` found, at positive mean stress.
 template <class Real, int N>
-Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t, const Candidate<Real>& end) {
+Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t, const Flow<Real, N>& flow,
+                             const Candidate<Real>& end) {
   const Increment<Real>& in = t.in;
   const Real p = end.pressure.mean_stress, x = end.multiplier;
   Substep<Real, N> out;
   out.plastic = x > 0;
   out.nonconvex = out.plastic & !end.slopes.convex;
   const Real q = select(out.plastic, p * end.slopes.peak * end.share, end.q_trial); // (8)
-  const Real factor = select(t.q_direction > 0, q / max(t.q_direction, Real(tiny<Scalar<Real>>)), Real(0));
-  out.point = {add_mean(scale(factor, t.direction), p), in.e_end, in.eps_d + x, 0};
+  const Real factor = select(flow.q > 0, q / max(flow.q, Real(tiny<Scalar<Real>>)), Real(0));
+  out.point = {add_mean(scale(factor, flow.direction), p), in.e_end, in.eps_d + x, 0};
   out.dissipation = plastic_work(in, end);
   const Real plastic_share =
       min(3 * end.shear_modulus * x / max(end.q_trial, Real(tiny<Scalar<Real>>)), Real(1));
   const Real slope_change = abs(end.slopes.transformation - in.slopes_start.transformation) +
                             abs(end.slopes.peak - in.slopes_start.peak);
   out.error = mean_stiffness_error(m, in.start, t.pressure) +
-              plastic_share * t.turn * sqrt(t.turn) * Real(0.125) +
+              plastic_share * flow.turn * sqrt(flow.turn) * Real(0.125) +
               in.stiffening * x * m.given.A_d * slope_change /
                   (2 * (1 - m.given.n) * (end.pressure.measure + m.floor_measure));
   return out;
