@@ -1,149 +1,221 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of a block in lanes: first each in one step, neighbours side by side; then those that need substeps,
-// a lane taking the next one as soon as it is free; then what lanes refuse, one by one. Every lane is alone with its
-// numbers, so a point's answer depends neither on its neighbours nor on the size of the block.
+// The points of a block in lanes, in rounds of one substep: neighbours side by side in the first, then those that
+// have strain left. In each, points that yield are gathered for the plastic rule. What lanes refuse is updated one by
+// one. Every lane is alone with its numbers, so a point's answer depends neither on its neighbours nor on the
+// size of the block.
 #pragma once
 #include "vumat/block.hpp"
 #include "vumat/progress.hpp"
 
 namespace simsand {
 
-/// Points of one pass: no block that a host passes is longer than a few of them.
-inline constexpr int points_of_pass = 128;
+template <class Real> inline constexpr int vectors_of_pass = points_of_pass / lane_count<Real>;
+
+/// Points of a pass between their substeps, component by component; positions are from 0.
+template <class Real, int N> struct Points {
+  using Column = Real[points_of_pass];
+  alignas(64) Column stress[N], strain[N], void_ratio, plastic_strain, separation_strain;
+  alignas(64) Column done, size, dissipation, status, nonconvex;
+};
+
+/// Calls f(lanes, column) for what a substep changes.
+template <class Real, int N, class F> void each_changed(Progress<Real, N>& at, Points<Real, N>& a, const F& f) {
+  for (int c = 0; c < N; ++c) f(at.point.stress[c], a.stress[c]);
+  f(at.point.void_ratio, a.void_ratio);
+  f(at.point.plastic_strain, a.plastic_strain);
+  f(at.done, a.done);
+  f(at.size, a.size);
+  f(at.dissipation, a.dissipation);
+  f(at.status, a.status);
+  f(at.nonconvex, a.nonconvex);
+}
+
+/// Positions, and what to do with some; room for the lanes that fill the last register.
+template <class Real> struct List {
+  int count = 0, position[points_of_pass + lane_count<Real>];
+
+  void add(int at, bool really) {
+    position[count] = at;
+    count += really;
+  }
+  /// Repeats the last position until lanes are full.
+  void fill() {
+    for (int i = count; i % lane_count<Real> != 0; ++i) position[i] = position[count - 1];
+  }
+};
+
+template <class Real, int N> void gather(Points<Real, N>& a, const int* position, Progress<Real, N>& at) {
+  const auto take = [&](auto& lanes, const Real* column) {
+    for (int i = 0; i < lane_count<Real>; ++i) lanes.set(i, column[position[i]]);
+  };
+  each_changed(at, a, take);
+  for (int c = 0; c < N; ++c) take(at.strain[c], a.strain[c]);
+  at.point.separation_strain = Real(0);
+}
+
+template <class Real, int N> void scatter(Progress<Real, N>& at, Points<Real, N>& a, const int* position) {
+  each_changed(at, a, [&](const auto& lanes, Real* column) {
+    for (int i = 0; i < lane_count<Real>; ++i) column[position[i]] = lanes[i];
+  });
+}
 
 /// Lanes of `count` values from an array; the last stands for those beyond it.
 template <class Real> Lanes<Real, lane_count<Real>> load_lanes(const Real* from, int count) {
+  if (count >= lane_count<Real>) return Lanes<Real, lane_count<Real>>::read(from);
   Lanes<Real, lane_count<Real>> a;
-  if (count >= lane_count<Real>)
-    std::memcpy(&a, from, sizeof a);
-  else
-    for (int i = 0; i < lane_count<Real>; ++i) a.set(i, from[std::min(i, count - 1)]);
+  for (int i = 0; i < lane_count<Real>; ++i) a.set(i, from[std::min(i, count - 1)]);
   return a;
 }
 
 /// Writes the first `count` lanes where the mask holds.
 template <class Real, class Mask>
-void store_lanes(const Lanes<Real, lane_count<Real>>& a, const Mask& mask, bool everywhere, Real* to,
-                 int count) {
-  if (everywhere && count >= lane_count<Real>)
-    std::memcpy(to, &a, sizeof a);
-  else
+void store_lanes(const Lanes<Real, lane_count<Real>>& a, const Mask& mask, Real* to, int count) {
+  if (count >= lane_count<Real>) {
+    const auto kept = load_lanes(to, count);
+    select(mask, a, kept).write(to);
+  } else {
     for (int i = 0; i < count; ++i)
       if (mask[i]) to[i] = a[i];
+  }
 }
 
-/// One step of as many points as there are lanes, from k on. Returns which are through.
+/// Neighbours from point k of a block on, before their increments.
 template <class Real, int N>
-Progress<Real, N> first_step(const Material<Real>& m, const Block<Real>& b, int k) {
-  using Lane = typename Progress<Real, N>::Lane;
-  const int count = std::min(lane_count<Real>, b.points - k);
+void load_points(const Block<Real>& b, int k, int count, Progress<Real, N>& at) {
   const auto load = [&](const Real* array, int c) {
     return load_lanes(array + std::size_t(c) * b.points + k, count);
   };
-  Progress<Real, N> at;
-  SymmetricTensor<Lane, N> stress;
   for (int c = 0; c < N; ++c) {
-    stress[c] = -load(b.stress_old, c);
+    at.point.stress[c] = -load(b.stress_old, c);
     at.strain[c] = -load(b.strain, c);
   }
-  at.point = {stress, load(b.state_old, statev::void_ratio),
-              load(b.state_old, statev::plastic_deviatoric_strain),
-              load(b.state_old, statev::separation_strain)};
-  begin(at);
-  advance(m, at);
-
-  const Mask<Lane> through = (!at.refused) & (at.done >= Real(1));
-  const bool all_through = all(through);
-  const auto put = [&](Real* array, int c, Lane value) {
-    store_lanes(value, through, all_through, array + std::size_t(c) * b.points + k, count);
-  };
-  const auto one_if = [](const Mask<Lane>& mask) { return select(mask, Lane(Real(1)), Lane(Real(0))); };
-  for (int c = 0; c < N; ++c) put(b.stress_new, c, 0 - at.point.stress[c]); // no -0
-  put(b.state_new, statev::void_ratio, at.point.void_ratio);
-  put(b.state_new, statev::plastic_deviatoric_strain, at.point.plastic_strain);
-  put(b.state_new, statev::separation_strain, Real(0));
-  put(b.state_new, statev::status, one_if(at.plastic));
-  put(b.state_new, statev::nonconvex_updates,
-      load(b.state_new, statev::nonconvex_updates) + one_if(at.nonconvex));
-  const Lane density = load(b.density, 0);
-  const Lane volume = select(density > Real(0), 1 / density, Lane(Real(0)));
-  const Lane work = contract(add(stress, Lane(Real(1)), at.point.stress), at.strain) * Real(0.5);
-  put(b.internal_new, 0, load(b.internal_new, 0) + work * volume);
-  put(b.inelastic_new, 0, load(b.inelastic_new, 0) + at.dissipation * volume);
-  return at;
+  at.point.void_ratio = load(b.state_old, statev::void_ratio);
+  at.point.plastic_strain = load(b.state_old, statev::plastic_deviatoric_strain);
+  at.point.separation_strain = load(b.state_old, statev::separation_strain);
+  at.done = at.dissipation = at.status = at.nonconvex = Real(0);
+  at.size = Real(1);
 }
 
-/// Puts point k in lane i, with a first substep of a quarter.
+/// The whole increment of `count` points of a block from one on, in elastic steps; those that yield are listed.
 template <class Real, int N>
-void enter(Progress<Real, N>& at, int i, const Point<Real, N>& point,
-           const SymmetricTensor<Real, N>& strain) {
-  for (int c = 0; c < N; ++c) {
-    at.point.stress[c].set(i, point.stress[c]);
-    at.strain[c].set(i, strain[c]);
-  }
-  at.point.void_ratio.set(i, point.void_ratio);
-  at.point.plastic_strain.set(i, point.plastic_strain);
-  at.point.separation_strain.set(i, Real(0));
-  at.done.set(i, Real(0));
-  at.size.set(i, Real(0.25));
-  at.dissipation.set(i, Real(0));
-  for (auto* mask : {&at.plastic, &at.nonconvex, &at.refused}) mask->set(i, false);
-}
-
-/// The point that leaves lane i.
-template <class Real, int N> Update<Real, N> leave(const Progress<Real, N>& at, int i) {
-  Update<Real, N> out{{}, Status::substepped, at.dissipation[i], at.nonconvex[i]};
-  for (int c = 0; c < N; ++c) out.point.stress[c] = at.point.stress[c][i];
-  out.point.void_ratio = at.point.void_ratio[i];
-  out.point.plastic_strain = at.point.plastic_strain[i];
-  return out;
-}
-
-/// The points listed, each in substeps.
-template <class Real, int N>
-void run_substepped(const Material<Real>& m, const Block<Real>& b, const int* list, int count) {
-  if (count == 0) return;
-  Progress<Real, N> at;
-  int occupant[lane_count<Real>], entered = 0, left = 0;
-  const auto fill = [&](int i, int k) {
-    enter(at, i, load_point<Real, N>(m, b, k), load<Real, N>(b.strain, b.points, k));
-  };
-  for (int i = 0; i < lane_count<Real>; ++i) {
-    occupant[i] = entered < count ? list[entered] : -1;
-    fill(i, list[std::min(entered, count - 1)]);
-    entered += occupant[i] >= 0;
-  }
-  while (left < count) {
-    advance(m, at);
-    for (int i = 0; i < lane_count<Real>; ++i) {
-      const int k = occupant[i];
-      if (k < 0 || !(at.refused[i] || at.done[i] >= 1)) continue;
-      if (at.refused[i])
-        run_point<Real, N>(m, b, Task::increment, k);
-      else
-        store_update(leave(at, i), load<Real, N>(b.stress_old, b.points, k),
-                     load<Real, N>(b.strain, b.points, k), b, k);
-      ++left;
-      occupant[i] = entered < count ? list[entered++] : -1;
-      if (occupant[i] >= 0) fill(i, occupant[i]);
+__attribute__((flatten, noinline)) void first_round(const Material<Real>& m, const Block<Real>& b, int from,
+                                                    int count, Points<Real, N>& a, List<Real>& yielding, Work<Real, N>* works) {
+  constexpr int lanes = lane_count<Real>;
+  for (int k = 0; k < count; k += vectors_of_pass<Real> * lanes) {
+    const int n = std::min(vectors_of_pass<Real>, (count - k + lanes - 1) / lanes);
+    for (int i = 0; i < n; ++i) load_points(b, from + k + i * lanes, count - k - i * lanes, works[i]);
+    try_elastic(m, works, n);
+    for (int i = 0; i < n; ++i) {
+      auto& w = works[i];
+      const int at = k + i * lanes;
+      stay_apart(w);
+      const auto put = [&](const auto& values, Real* column) { values.write(column + at); };
+      each_changed(w, a, put);
+      put(w.point.separation_strain, a.separation_strain);
+      for (int c = 0; c < N; ++c) put(w.strain[c], a.strain[c]);
+      for (int j = 0; j < std::min(lanes, count - at); ++j) yielding.add(at + j, w.yields[j]);
     }
   }
+}
+
+/// An elastic substep of the points listed; those that yield are listed anew.
+template <class Real, int N>
+__attribute__((flatten, noinline)) void elastic_round(const Material<Real>& m, Points<Real, N>& a,
+                                                      List<Real>& list, List<Real>& yielding, Work<Real, N>* works) {
+  constexpr int lanes = lane_count<Real>;
+  list.fill();
+  for (int k = 0; k < list.count; k += vectors_of_pass<Real> * lanes) {
+    const int n = std::min(vectors_of_pass<Real>, (list.count - k + lanes - 1) / lanes);
+    for (int i = 0; i < n; ++i) gather(a, list.position + k + i * lanes, works[i]);
+    try_elastic(m, works, n);
+    for (int i = 0; i < n; ++i) {
+      const int at = k + i * lanes;
+      scatter(works[i], a, list.position + at);
+      for (int j = 0; j < std::min(lanes, list.count - at); ++j)
+        yielding.add(list.position[at + j], works[i].yields[j]);
+    }
+  }
+}
+
+/// A plastic substep of the points listed.
+template <class Real, int N>
+__attribute__((flatten, noinline)) void plastic_round(const Material<Real>& m, Points<Real, N>& a,
+                                                      List<Real>& list, Work<Real, N>* works) {
+  constexpr int lanes = lane_count<Real>;
+  list.fill();
+  for (int k = 0; k < list.count; k += vectors_of_pass<Real> * lanes) {
+    const int n = std::min(vectors_of_pass<Real>, (list.count - k + lanes - 1) / lanes);
+    for (int i = 0; i < n; ++i) gather(a, list.position + k + i * lanes, works[i]);
+    try_plastic(m, works, n);
+    for (int i = 0; i < n; ++i) scatter(works[i], a, list.position + k + i * lanes);
+  }
+}
+
+/// Writes what a pass gave to the block; what lanes refused is updated alone.
+template <class Real, int N>
+__attribute__((flatten, noinline)) void store_lanes_(const Material<Real>& m, const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
+  using Lane = Lanes<Real, lane_count<Real>>;
+  for (int v = 0; v < count; v += lane_count<Real>) {
+    const auto column = [&](const Real* values) { return load_lanes(values + v, lane_count<Real>); };
+    const auto load = [&](const Real* array, int c) {
+      return load_lanes(array + std::size_t(c) * b.points + from + v, count - v);
+    };
+    const Lane zero = Real(0), status = column(a.status);
+    const Mask<Lane> through = status >= zero;
+    const auto put = [&](Real* array, int c, const Lane& value) {
+      store_lanes(value, through, array + std::size_t(c) * b.points + from + v, count - v);
+    };
+    SymmetricTensor<Lane, N> twice_mean, strain;
+    for (int c = 0; c < N; ++c) {
+      const Lane stress = column(a.stress[c]);
+      twice_mean[c] = stress - load(b.stress_old, c);
+      strain[c] = column(a.strain[c]);
+      put(b.stress_new, c, 0 - stress); // no -0
+    }
+    put(b.state_new, statev::void_ratio, column(a.void_ratio));
+    put(b.state_new, statev::plastic_deviatoric_strain, column(a.plastic_strain));
+    put(b.state_new, statev::separation_strain, max(column(a.separation_strain), zero));
+    put(b.state_new, statev::status, status);
+    put(b.state_new, statev::nonconvex_updates, load(b.state_new, statev::nonconvex_updates) + column(a.nonconvex));
+    const Lane density = load(b.density, 0);
+    const Lane volume = select(density > zero, 1 / density, zero);
+    put(b.internal_new, 0, load(b.internal_new, 0) + contract(twice_mean, strain) * Real(0.5) * volume);
+    put(b.inelastic_new, 0, load(b.inelastic_new, 0) + column(a.dissipation) * volume);
+  }
+}
+template <class Real, int N>
+void store_points(const Material<Real>& m, const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
+  store_lanes_<Real,N>(m,b,from,count,a);
+  for (int k = 0; k < count; ++k)
+    if (a.status[k] < 0) run_point<Real, N>(m, b, Task::increment, from + k);
+}
+
+/// Up to points_of_pass points from one on.
+template <class Real, int N>
+void run_pass(const Material<Real>& m, const Block<Real>& b, int from, int count) {
+  Points<Real, N> a;
+  Work<Real, N> works[vectors_of_pass<Real>];
+  List<Real> yielding, unfinished;
+  first_round<Real, N>(m, b, from, count, a, yielding, works);
+  plastic_round<Real, N>(m, a, yielding, works);
+  for (int k = 0; k < count; ++k) unfinished.add(k, a.status[k] >= 0 && a.done[k] < 1);
+  while (unfinished.count > 0) {
+    yielding.count = 0;
+    elastic_round<Real, N>(m, a, unfinished, yielding, works);
+    plastic_round<Real, N>(m, a, yielding, works);
+    List<Real> next;
+    for (int i = 0; i < unfinished.count; ++i) {
+      const int k = unfinished.position[i];
+      next.add(k, a.status[k] >= 0 && a.done[k] < 1);
+    }
+    unfinished = next;
+  }
+  store_points<Real, N>(m, b, from, count, a);
 }
 
 template <class Real, int N> void run_lanes(const Material<Real>& m, const Block<Real>& b) {
-  for (int from = 0; from < b.points; from += points_of_pass) {
-    const int to = std::min(from + points_of_pass, b.points);
-    int list[points_of_pass], count = 0;
-    for (int k = from; k < to; k += lane_count<Real>) {
-      const auto at = first_step<Real, N>(m, b, k);
-      for (int i = 0; i < std::min(lane_count<Real>, to - k); ++i)
-        if (at.refused[i])
-          run_point<Real, N>(m, b, Task::increment, k + i);
-        else if (at.done[i] < 1)
-          list[count++] = k + i;
-    }
-    run_substepped<Real, N>(m, b, list, count);
-  }
+  for (int from = 0; from < b.points; from += points_of_pass)
+    run_pass<Real, N>(m, b, from, std::min(points_of_pass, b.points - from));
 }
 
 } // namespace simsand

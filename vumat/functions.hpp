@@ -36,9 +36,14 @@ template <class Real> struct Pressure {
   Real log_ratio; ///< ln (p / p_at), p not below p_min
 };
 
-template <class Real> Pressure<Real> pressure_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress) {
+/// ln (p / p_at), p not below p_min.
+template <class Real> Real log_ratio_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress) {
+  return log(max(mean_stress * (1 / m.given.p_at), Real(m.floor_pressure)));
+}
+
+template <class Real>
+Pressure<Real> pressure_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress, Real log_ratio) {
   const Real ratio = max(mean_stress, Real(0)) * (1 / m.given.p_at);
-  const Real log_ratio = log(max(ratio, Real(m.floor_pressure)));
   const Real w = exp((1 - m.given.n) * log_ratio);
   const Mask<Real> floored = ratio < m.floor_pressure;
   const Real stiffness = select(floored, Real(m.floor_stiffness), ratio / w);
@@ -47,22 +52,37 @@ template <class Real> Pressure<Real> pressure_of_mean_stress(const MaterialOf<Re
   return {max(mean_stress, Real(0)), measure, stiffness, log_ratio};
 }
 
-template <class Real> Pressure<Real> pressure_of_measure(const MaterialOf<Real>& m, Real measure) {
-  const Real above = max(measure - m.floor_measure, Real(0));
-  const Real w = m.floor_measure + (1 - m.given.n) * above; // (p / p_at)^(1-n)
-  const Real log_ratio = log(w) * (1 / (1 - m.given.n));
+template <class Real> Pressure<Real> pressure_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress) {
+  return pressure_of_mean_stress(m, mean_stress, log_ratio_of_mean_stress(m, mean_stress));
+}
+
+/// (p / p_at)^(1-n), p not below p_min.
+template <class Real> Real power_of_measure(const MaterialOf<Real>& m, Real measure) {
+  return m.floor_measure + (1 - m.given.n) * max(measure - m.floor_measure, Real(0));
+}
+
+template <class Real> Real log_ratio_of_measure(const MaterialOf<Real>& m, Real measure) {
+  return log(power_of_measure(m, measure)) * (1 / (1 - m.given.n));
+}
+
+template <class Real>
+Pressure<Real> pressure_of_measure(const MaterialOf<Real>& m, Real measure, Real log_ratio) {
   const Real ratio = exp(log_ratio);
-  const Mask<Real> over = above > 0;
-  const Real stiffness = select(over, ratio / w, Real(m.floor_stiffness));
+  const Mask<Real> over = measure > m.floor_measure;
+  const Real stiffness = select(over, ratio / power_of_measure(m, measure), Real(m.floor_stiffness));
   const Real mean_stress = m.given.p_at * select(over, ratio, measure * m.floor_stiffness);
   return {mean_stress, measure, stiffness, log_ratio};
+}
+
+template <class Real> Pressure<Real> pressure_of_measure(const MaterialOf<Real>& m, Real measure) {
+  return pressure_of_measure(m, measure, log_ratio_of_measure(m, measure));
 }
 
 /// Pressure after a change of measure, by series in the change of ln p: relative error below 2e-4 where that is
 /// below 0.4, to rounding where below 1e-3. The measure moves by no more than half of (p / p_at)^(1-n) / (1-n).
 template <class Real>
 Pressure<Real> shifted(const MaterialOf<Real>& m, const Pressure<Real>& from, Real measure_change) {
-  const Real w = m.floor_measure + (1 - m.given.n) * max(from.measure - m.floor_measure, Real(0));
+  const Real w = power_of_measure(m, from.measure);
   const Real x = min(max((1 - m.given.n) * measure_change / w, Real(-0.5)), Real(0.5));
   const Real change = x * (1 - x * (Real(0.5) - x * (Real(1. / 3) - x * (Real(0.25) - x * Real(0.2))))) *
                       (1 / (1 - m.given.n));
@@ -207,11 +227,11 @@ template <class Real> Real mobilised(const MaterialOf<Real>& m, Real eps_d) {
   return eps_d / (m.given.k_p + eps_d);
 }
 
-/// Mean of the mobilised share while eps_d grows by x (17); relative error of its complement below 1e-3 for
+/// Mean of the mobilised share while eps_d grows by x, of the inverse of k_p + eps_d at the start (17); relative error of its complement below 1e-3 for
 /// x <= k_p + eps_d.
-template <class Real> Real mean_mobilised(const MaterialOf<Real>& m, Real eps_d, Real x) {
-  const Real b = m.given.k_p + eps_d, z = x / b;
-  return 1 - m.given.k_p / b * (6 + 3 * z) / (6 + z * (6 + z));
+template <class Real> Real mean_mobilised(const MaterialOf<Real>& m, Real inverse, Real x) {
+  const Real z = x * inverse;
+  return 1 - m.given.k_p * inverse * (6 + 3 * z) / (6 + z * (6 + z));
 }
 
 template <class Real> Real yield_function(Real q, Real p, Real M_p, Real share) {

@@ -43,13 +43,15 @@ Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>&
                                   const SymmetricTensor<Real, N>& strain) {
   auto trial = elastic_trial(m, old, strain);
   if (trial.inside) return {elastic_end(m, trial)};
+  auto& in = trial.in;
+  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(trial.s_old, in.q_start));
   const auto flow = turn_deviator(m, trial);
   Attempt<Real, N> out;
-  const auto first = candidate(m, trial.in, trial.pressure, slopes(m, trial.density, trial.in.sin3theta));
-  const auto end = solve(m, trial.in, first, out.converged);
+  const auto first = candidate(m, trial.in, trial.pressure, slopes(m, trial.density, in.sin3theta));
+  const auto end = solve(m, in, first, out.converged);
   const bool parted = end.pressure.measure == 0;
   static_cast<Substep<Real, N>&>(out) =
-      parted ? parted_end<Real, N>(m, trial.in, end) : plastic_end(m, trial, flow, end);
+      parted ? parted_end<Real, N>(m, in, end) : plastic_end(m, trial, flow, end);
   out.collapsed = parted && trial.measure > 0;
   return out;
 }

@@ -21,7 +21,7 @@ template <class Real, int N> struct Substep {
 /// The elastic trial of a substep, and where it turns the deviator to.
 template <class Real, int N> struct Trial {
   Increment<Real> in;
-  SymmetricTensor<Real, N> s_old, s_trial; ///< deviators
+  SymmetricTensor<Real, N> s_old, s_trial, e_dev; ///< deviators
   Real measure;                            ///< y, not bounded
   Pressure<Real> pressure;
   Density<Real> density;
@@ -37,17 +37,58 @@ template <class Real, int N> struct Flow {
   Real q, turn; ///< invariant of `direction`; 2 (1 - cos psi)
 };
 
+// The elastic trial in parts of one long function each: lanes run every part over many points before the next, so that
+// the processor finds work while a logarithm is under way.
+
 template <class Real, int N>
-Increment<Real> increment(const MaterialOf<Real>& m, const Point<Real, N>& old, Real p_old, Real volumetric) {
-  Increment<Real> in;
-  in.start = pressure_of_mean_stress(m, p_old);
-  in.volumetric = volumetric;
+void begin_trial(const MaterialOf<Real>& m, const Point<Real, N>& old, const SymmetricTensor<Real, N>& strain,
+                 Trial<Real, N>& t) {
+  const Real p_old = trace(old.stress) * Real(1. / 3);
+  t.s_old = scale(select(p_old > 0, Real(1), Real(0)), add_mean(old.stress, -p_old)); // none outlives p = 0
+  Increment<Real>& in = t.in;
+  in.volumetric = trace(strain);
+  t.e_dev = add_mean(strain, in.volumetric * Real(-1. / 3));
+  in.start.mean_stress = p_old;
+  in.start.log_ratio = log_ratio_of_mean_stress(m, p_old);
   in.e_start = old.void_ratio;
-  const Real e_middle = void_ratio_after(old.void_ratio, volumetric * Real(0.5));
-  in.e_end = void_ratio_after(e_middle, volumetric * Real(0.5));
-  in.stiffening = m.given.K0 * mean_void_ratio_factor(e_middle, volumetric);
+  const Real e_middle = void_ratio_after(old.void_ratio, in.volumetric * Real(0.5));
+  in.e_end = void_ratio_after(e_middle, in.volumetric * Real(0.5));
+  in.stiffening = m.given.K0 * mean_void_ratio_factor(e_middle, in.volumetric);
   in.eps_d = old.plastic_strain;
-  return in;
+  in.inverse_start = 1 / (m.given.k_p + in.eps_d);
+  in.q_start = deviatoric_stress(t.s_old);
+  in.stress_work = contract(t.s_old, t.e_dev);
+  in.strain_norm = contract(t.e_dev, t.e_dev);
+}
+
+template <class Real, int N> void trial_measure(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  Increment<Real>& in = t.in;
+  in.start = pressure_of_mean_stress(m, in.start.mean_stress, in.start.log_ratio);
+  t.measure = in.start.measure + in.stiffening * in.volumetric;
+  t.pressure.measure = max(t.measure, Real(0));
+}
+
+template <class Real, int N> void trial_log_ratio(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.pressure.log_ratio = log_ratio_of_measure(m, t.pressure.measure);
+}
+
+template <class Real, int N> void trial_pressure(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.pressure = pressure_of_measure(m, t.pressure.measure, t.pressure.log_ratio);
+  t.shear_modulus = mean_shear_modulus(m, t.in, t.pressure);
+  t.s_trial = add(t.s_old, 2 * t.shear_modulus, t.e_dev);
+  t.q = deviatoric_stress(t.s_trial);
+}
+
+template <class Real, int N> void trial_density(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.density = density(m, t.in.e_end, t.pressure);
+}
+
+template <class Real, int N> void end_trial(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.in.sin3theta = sin_3theta(t.s_trial, t.q);
+  t.peak = slope(peak_tangent(m, t.density.log_ratio), t.in.sin3theta).value;
+  const Real p = t.pressure.mean_stress;
+  t.f = yield_function(t.q, p, t.peak, t.in.eps_d * t.in.inverse_start); // (8)
+  t.inside = (t.measure > 0) & (t.f <= rounding<Scalar<Real>> * p);
 }
 
 /// The elastic trial and whether it is the answer.
@@ -55,24 +96,12 @@ template <class Real, int N>
 Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& old,
                              const SymmetricTensor<Real, N>& strain) {
   Trial<Real, N> t;
-  const Real p_old = trace(old.stress) / 3;
-  t.s_old = scale(select(p_old > 0, Real(1), Real(0)), deviator(old.stress)); // none outlives p = 0
-  const auto e_dev = deviator(strain);
-  Increment<Real>& in = t.in = increment(m, old, p_old, trace(strain));
-  in.q_start = deviatoric_stress(t.s_old);
-  in.stress_work = contract(t.s_old, e_dev);
-  in.strain_norm = contract(e_dev, e_dev);
-
-  t.measure = in.start.measure + in.stiffening * in.volumetric;
-  t.pressure = pressure_of_measure(m, max(t.measure, Real(0)));
-  t.shear_modulus = mean_shear_modulus(m, in, t.pressure);
-  t.s_trial = add(t.s_old, 2 * t.shear_modulus, e_dev);
-  t.q = deviatoric_stress(t.s_trial);
-  in.sin3theta = sin_3theta(t.s_trial, t.q);
-  t.density = density(m, in.e_end, t.pressure);
-  t.peak = slope(peak_tangent(m, t.density.log_ratio), in.sin3theta).value;
-  t.f = yield_function(t.q, t.pressure.mean_stress, t.peak, mobilised(m, in.eps_d)); // (8)
-  t.inside = (t.measure > 0) & (t.f <= rounding<Scalar<Real>> * t.pressure.mean_stress);
+  begin_trial(m, old, strain, t);
+  trial_measure(m, t);
+  trial_log_ratio(m, t);
+  trial_pressure(m, t);
+  trial_density(m, t);
+  end_trial(m, t);
   return t;
 }
 
@@ -80,9 +109,8 @@ Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& ol
 /// surface and half along that at the end, the latter is parallel to s_trial - 3 G x / (2 q) s.
 template <class Real, int N> Flow<Real, N> turn_deviator(const MaterialOf<Real>& m, Trial<Real, N>& t) {
   Increment<Real>& in = t.in;
-  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(t.s_old, in.q_start));
   const Real f_start =
-      yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, mobilised(m, in.eps_d));
+      yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, in.eps_d * in.inverse_start);
   const Real tiny_stress = tiny<Scalar<Real>>;
   const Real elastic_part = min(max(-f_start / max(t.f - f_start, tiny_stress), Real(0)), Real(1));
   const auto s_yield = add(scale(1 - elastic_part, t.s_old), elastic_part, t.s_trial);
