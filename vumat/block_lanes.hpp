@@ -69,10 +69,10 @@ template <class Real> Lanes<Real, lane_count<Real>> load_lanes(const Real* from,
 
 /// Writes the first `count` lanes where the mask holds.
 template <class Real, class Mask>
-void store_lanes(const Lanes<Real, lane_count<Real>>& a, const Mask& mask, Real* to, int count) {
+void store_lanes(const Lanes<Real, lane_count<Real>>& a, const Mask& mask, bool everywhere, Real* to,
+                 int count) {
   if (count >= lane_count<Real>) {
-    const auto kept = load_lanes(to, count);
-    select(mask, a, kept).write(to);
+    (everywhere ? a : select(mask, a, load_lanes(to, count))).write(to);
   } else {
     for (int i = 0; i < count; ++i)
       if (mask[i]) to[i] = a[i];
@@ -99,55 +99,38 @@ void load_points(const Block<Real>& b, int k, int count, Progress<Real, N>& at) 
 /// The whole increment of `count` points of a block from one on, in elastic steps; those that yield are listed.
 template <class Real, int N>
 __attribute__((flatten, noinline)) void first_round(const Material<Real>& m, const Block<Real>& b, int from,
-                                                    int count, Points<Real, N>& a, List<Real>& yielding, Work<Real, N>* works) {
+                                                    int count, Points<Real, N>& a, List<Real>& unfinished,
+                                                    Work<Real, N>* works) {
   constexpr int lanes = lane_count<Real>;
-  for (int k = 0; k < count; k += vectors_of_pass<Real> * lanes) {
-    const int n = std::min(vectors_of_pass<Real>, (count - k + lanes - 1) / lanes);
-    for (int i = 0; i < n; ++i) load_points(b, from + k + i * lanes, count - k - i * lanes, works[i]);
-    try_elastic(m, works, n);
-    for (int i = 0; i < n; ++i) {
-      auto& w = works[i];
-      const int at = k + i * lanes;
-      stay_apart(w);
-      const auto put = [&](const auto& values, Real* column) { values.write(column + at); };
-      each_changed(w, a, put);
-      put(w.point.separation_strain, a.separation_strain);
-      for (int c = 0; c < N; ++c) put(w.strain[c], a.strain[c]);
-      for (int j = 0; j < std::min(lanes, count - at); ++j) yielding.add(at + j, w.yields[j]);
-    }
+  const int vectors = (count + lanes - 1) / lanes;
+  for (int i = 0; i < vectors; ++i) load_points(b, from + i * lanes, count - i * lanes, works[i]);
+  try_elastic(m, works, vectors);
+  for (int i = 0; i < vectors; ++i) {
+    auto& w = works[i];
+    stay_apart(w);
+    const auto put = [&](const auto& values, Real* column) { values.write(column + i * lanes); };
+    each_changed(w, a, put);
+    put(w.point.separation_strain, a.separation_strain);
+    for (int c = 0; c < N; ++c) put(w.strain[c], a.strain[c]);
   }
+  for (int k = 0; k < count; ++k) unfinished.add(k, a.status[k] >= 0 && a.done[k] < 1);
 }
 
-/// An elastic substep of the points listed; those that yield are listed anew.
+/// A substep of the points listed, which those with strain left then are anew.
 template <class Real, int N>
-__attribute__((flatten, noinline)) void elastic_round(const Material<Real>& m, Points<Real, N>& a,
-                                                      List<Real>& list, List<Real>& yielding, Work<Real, N>* works) {
+__attribute__((flatten, noinline)) void next_round(const Material<Real>& m, Points<Real, N>& a,
+                                                   List<Real>& list, Work<Real, N>* works) {
   constexpr int lanes = lane_count<Real>;
+  const int vectors = (list.count + lanes - 1) / lanes;
   list.fill();
-  for (int k = 0; k < list.count; k += vectors_of_pass<Real> * lanes) {
-    const int n = std::min(vectors_of_pass<Real>, (list.count - k + lanes - 1) / lanes);
-    for (int i = 0; i < n; ++i) gather(a, list.position + k + i * lanes, works[i]);
-    try_elastic(m, works, n);
-    for (int i = 0; i < n; ++i) {
-      const int at = k + i * lanes;
-      scatter(works[i], a, list.position + at);
-      for (int j = 0; j < std::min(lanes, list.count - at); ++j)
-        yielding.add(list.position[at + j], works[i].yields[j]);
-    }
-  }
-}
-
-/// A plastic substep of the points listed.
-template <class Real, int N>
-__attribute__((flatten, noinline)) void plastic_round(const Material<Real>& m, Points<Real, N>& a,
-                                                      List<Real>& list, Work<Real, N>* works) {
-  constexpr int lanes = lane_count<Real>;
-  list.fill();
-  for (int k = 0; k < list.count; k += vectors_of_pass<Real> * lanes) {
-    const int n = std::min(vectors_of_pass<Real>, (list.count - k + lanes - 1) / lanes);
-    for (int i = 0; i < n; ++i) gather(a, list.position + k + i * lanes, works[i]);
-    try_plastic(m, works, n);
-    for (int i = 0; i < n; ++i) scatter(works[i], a, list.position + k + i * lanes);
+  for (int i = 0; i < vectors; ++i) gather(a, list.position + i * lanes, works[i]);
+  try_elastic(m, works, vectors);
+  try_plastic(m, works, vectors);
+  for (int i = 0; i < vectors; ++i) scatter(works[i], a, list.position + i * lanes);
+  const int before = std::exchange(list.count, 0);
+  for (int i = 0; i < before; ++i) {
+    const int k = list.position[i];
+    list.add(k, a.status[k] >= 0 && a.done[k] < 1);
   }
 }
 
@@ -162,8 +145,9 @@ __attribute__((flatten, noinline)) void store_lanes_(const Material<Real>& m, co
     };
     const Lane zero = Real(0), status = column(a.status);
     const Mask<Lane> through = status >= zero;
+    const bool all_through = all(through);
     const auto put = [&](Real* array, int c, const Lane& value) {
-      store_lanes(value, through, array + std::size_t(c) * b.points + from + v, count - v);
+      store_lanes(value, through, all_through, array + std::size_t(c) * b.points + from + v, count - v);
     };
     SymmetricTensor<Lane, N> twice_mean, strain;
     for (int c = 0; c < N; ++c) {
@@ -195,21 +179,9 @@ template <class Real, int N>
 void run_pass(const Material<Real>& m, const Block<Real>& b, int from, int count) {
   Points<Real, N> a;
   Work<Real, N> works[vectors_of_pass<Real>];
-  List<Real> yielding, unfinished;
-  first_round<Real, N>(m, b, from, count, a, yielding, works);
-  plastic_round<Real, N>(m, a, yielding, works);
-  for (int k = 0; k < count; ++k) unfinished.add(k, a.status[k] >= 0 && a.done[k] < 1);
-  while (unfinished.count > 0) {
-    yielding.count = 0;
-    elastic_round<Real, N>(m, a, unfinished, yielding, works);
-    plastic_round<Real, N>(m, a, yielding, works);
-    List<Real> next;
-    for (int i = 0; i < unfinished.count; ++i) {
-      const int k = unfinished.position[i];
-      next.add(k, a.status[k] >= 0 && a.done[k] < 1);
-    }
-    unfinished = next;
-  }
+  List<Real> unfinished;
+  first_round<Real, N>(m, b, from, count, a, unfinished, works);
+  while (unfinished.count > 0) next_round<Real, N>(m, a, unfinished, works);
   store_points<Real, N>(m, b, from, count, a);
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 // Bytes of one register of lanes, by default the widest of the target; 0: no lanes, every point alone.
 #ifndef SIMSAND_VECTOR_BYTES

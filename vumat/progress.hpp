@@ -34,7 +34,7 @@ template <class Real, int N> struct Work : Progress<Real, N> {
   Density<Lane> density;
   Candidate<Lane> full, end; ///< with all functions evaluated; a step of Newton's rule from there
   Lane measure_step, measure;
-  Mask<Lane> fit, yields, solved;
+  Mask<Lane> yields, solved;
 };
 
 /// The points of `a` where the mask holds, else those of `b`.
@@ -75,9 +75,11 @@ void settle(Progress<Real, N>& at, const Substep<Lane, N>& end, const Mask<Lane>
   at.size = select(tried, min(next, 1 - at.done), at.size);
 }
 
-/// The elastic trials of lanes.
-template <class Real, int N> void try_substep(const Material<Real>& m, Work<Real, N>* works, int count) {
+/// Tries an elastic substep of lanes; those that yield are for a plastic one.
+template <class Real, int N> void try_elastic(const Material<Real>& m, Work<Real, N>* works, int count) {
   using W = Work<Real, N>;
+  using Lane = typename W::Lane;
+  const Lane zero = Real(0);
   const auto each = [&](const auto& part) {
     for (int i = 0; i < count; ++i) part(works[i]);
   };
@@ -87,21 +89,13 @@ template <class Real, int N> void try_substep(const Material<Real>& m, Work<Real
   each([&](W& w) { trial_pressure(m, w.trial); });
   each([&](W& w) { trial_density(m, w.trial); });
   each([&](W& w) { end_trial(m, w.trial); });
-}
-
-/// Tries an elastic substep of lanes; those that yield are for a plastic one.
-template <class Real, int N> void try_elastic(const Material<Real>& m, Work<Real, N>* works, int count) {
-  using Lane = typename Work<Real, N>::Lane;
-  try_substep(m, works, count);
-  for (int i = 0; i < count; ++i) {
-    auto& w = works[i];
-    const Lane zero = Real(0);
-    w.fit = admissible(w.point, w.strain) & (w.point.separation_strain <= zero) &
-            (trace(w.point.stress) > zero);
-    w.yields = w.fit & !w.trial.inside;
-    settle(w, elastic_end(m, w.trial), w.fit & w.trial.inside, w.fit);
-    w.status = select(w.fit, w.status, Lane(Real(refused)));
-  }
+  each([&](W& w) {
+    const Mask<Lane> fit = admissible(w.point, w.strain) & (w.point.separation_strain <= zero) &
+                           (trace(w.point.stress) > zero);
+    w.yields = fit & !w.trial.inside;
+    settle(w, elastic_end(m, w.trial), fit & w.trial.inside, fit);
+    w.status = select(fit, w.status, Lane(Real(refused)));
+  });
 }
 
 /// Newton's rule from the start, of each lane until it is solved. Steps by series find the neighbourhood of the
@@ -146,7 +140,7 @@ template <class Real, int N> void newton(const Material<Real>& m, Work<Real, N>*
   }
 }
 
-/// Tries a plastic substep of lanes.
+/// Tries a plastic substep of those lanes that yield in their trials.
 template <class Real, int N> void try_plastic(const Material<Real>& m, Work<Real, N>* works, int count) {
   using W = Work<Real, N>;
   using Lane = typename W::Lane;
@@ -154,19 +148,18 @@ template <class Real, int N> void try_plastic(const Material<Real>& m, Work<Real
     for (int i = 0; i < count; ++i) part(works[i]);
   };
   const Lane zero = Real(0);
-  try_substep(m, works, count);
   each([&](W& w) { w.density = density(m, w.trial.in.e_start, w.trial.in.start); });
   each([&](W& w) {
     w.trial.in.slopes_start = slopes(m, w.density, sin_3theta(w.trial.s_old, w.trial.in.q_start));
   });
   each([&](W& w) {
     w.flow = turn_deviator(m, w.trial);
-    w.solved = zero > zero;
+    w.solved = !w.yields;
   });
   newton(m, works, count);
   each([&](W& w) {
-    const Mask<Lane> parted = w.end.pressure.measure <= zero;
-    settle(w, plastic_end(m, w.trial, w.flow, w.end), !parted, w.solved);
+    const Mask<Lane> parted = w.yields & (w.end.pressure.measure <= zero);
+    settle(w, plastic_end(m, w.trial, w.flow, w.end), w.yields & !parted, w.solved);
     w.status = select(parted, Lane(Real(refused)), w.status);
   });
 }
