@@ -30,6 +30,16 @@ template <class Real, int N, class F> void each_changed(Progress<Real, N>& at, P
   f(at.nonconvex, a.nonconvex);
 }
 
+template <class Real, int N> bool unfinished(const Points<Real, N>& a, int k) {
+  return (a.status[k] >= 0) & (a.done[k] < 1);
+}
+
+/// Room for a value that is not set to anything.
+template <class T> union Unset {
+  T value;
+  Unset() {}
+};
+
 /// Positions, and what to do with some; room for the lanes that fill the last register.
 template <class Real> struct List {
   int count = 0, position[points_of_pass + lane_count<Real>];
@@ -38,9 +48,11 @@ template <class Real> struct List {
     position[count] = at;
     count += really;
   }
-  /// Repeats the last position until lanes are full.
-  void fill() {
-    for (int i = count; i % lane_count<Real> != 0; ++i) position[i] = position[count - 1];
+  /// Repeats the last of `used` positions until lanes are full. Returns how many registers they fill.
+  int fill(int used) {
+    int end = used;
+    for (; end % lane_count<Real> != 0; ++end) position[end] = position[used - 1];
+    return end / lane_count<Real>;
   }
 };
 
@@ -96,47 +108,52 @@ void load_points(const Block<Real>& b, int k, int count, Progress<Real, N>& at) 
   at.size = Real(1);
 }
 
-/// The whole increment of `count` points of a block from one on, in elastic steps; those that yield are listed.
+/// Writes neighbours to columns.
+template <class Real, int N> void put_points(Work<Real, N>& w, Points<Real, N>& a, int first) {
+  const auto put = [&](const auto& values, Real* column) { values.write(column + first); };
+  each_changed(w, a, put);
+  put(w.point.separation_strain, a.separation_strain);
+  for (int c = 0; c < N; ++c) put(w.strain[c], a.strain[c]);
+}
+
+/// A substep of the points listed. Afterwards those with strain left are listed.
 template <class Real, int N>
-__attribute__((flatten, noinline)) void first_round(const Material<Real>& m, const Block<Real>& b, int from,
-                                                    int count, Points<Real, N>& a, List<Real>& unfinished,
-                                                    Work<Real, N>* works) {
+__attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list,
+                                         Work<Real, N>* works) {
+  constexpr int lanes = lane_count<Real>;
+  const int count = std::exchange(list.count, 0), vectors = list.fill(count);
+  for (int i = 0; i < vectors; ++i) gather(a, list.position + i * lanes, works[i]);
+  try_elastic<Real, N>(m, works, vectors);
+  try_plastic<Real, N>(m, works, vectors);
+  for (int i = 0; i < vectors; ++i) scatter(works[i], a, list.position + i * lanes);
+  for (int i = 0; i < count; ++i) list.add(list.position[i], unfinished(a, list.position[i]));
+}
+
+/// The whole increment of `count` points of a block from one on. Afterwards those with strain left are listed; if
+/// few yield they are left for a round where they fill their registers.
+template <class Real, int N>
+__attribute__((flatten)) void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count,
+                                          Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
   constexpr int lanes = lane_count<Real>;
   const int vectors = (count + lanes - 1) / lanes;
   for (int i = 0; i < vectors; ++i) load_points(b, from + i * lanes, count - i * lanes, works[i]);
-  try_elastic(m, works, vectors);
+  try_elastic<Real, N>(m, works, vectors);
   for (int i = 0; i < vectors; ++i) {
-    auto& w = works[i];
-    stay_apart(w);
-    const auto put = [&](const auto& values, Real* column) { values.write(column + i * lanes); };
-    each_changed(w, a, put);
-    put(w.point.separation_strain, a.separation_strain);
-    for (int c = 0; c < N; ++c) put(w.strain[c], a.strain[c]);
+    stay_apart(works[i]);
+    put_points(works[i], a, i * lanes);
   }
-  for (int k = 0; k < count; ++k) unfinished.add(k, a.status[k] >= 0 && a.done[k] < 1);
-}
-
-/// A substep of the points listed, which those with strain left then are anew.
-template <class Real, int N>
-__attribute__((flatten, noinline)) void next_round(const Material<Real>& m, Points<Real, N>& a,
-                                                   List<Real>& list, Work<Real, N>* works) {
-  constexpr int lanes = lane_count<Real>;
-  const int vectors = (list.count + lanes - 1) / lanes;
-  list.fill();
-  for (int i = 0; i < vectors; ++i) gather(a, list.position + i * lanes, works[i]);
-  try_elastic(m, works, vectors);
-  try_plastic(m, works, vectors);
-  for (int i = 0; i < vectors; ++i) scatter(works[i], a, list.position + i * lanes);
-  const int before = std::exchange(list.count, 0);
-  for (int i = 0; i < before; ++i) {
-    const int k = list.position[i];
-    list.add(k, a.status[k] >= 0 && a.done[k] < 1);
+  for (int k = 0; k < count; ++k) list.add(k, unfinished(a, k));
+  if (vectors == 1 || list.count > vectors * lanes * 3 / 4) {
+    try_plastic<Real, N>(m, works, vectors);
+    for (int i = 0; i < vectors; ++i) put_points(works[i], a, i * lanes);
+    list.count = 0;
+    for (int k = 0; k < count; ++k) list.add(k, unfinished(a, k));
   }
 }
 
 /// Writes what a pass gave to the block; what lanes refused is updated alone.
 template <class Real, int N>
-__attribute__((flatten, noinline)) void store_lanes_(const Material<Real>& m, const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
+__attribute__((flatten, noinline)) void store_lanes_(const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
   using Lane = Lanes<Real, lane_count<Real>>;
   for (int v = 0; v < count; v += lane_count<Real>) {
     const auto column = [&](const Real* values) { return load_lanes(values + v, lane_count<Real>); };
@@ -169,7 +186,7 @@ __attribute__((flatten, noinline)) void store_lanes_(const Material<Real>& m, co
 }
 template <class Real, int N>
 void store_points(const Material<Real>& m, const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
-  store_lanes_<Real,N>(m,b,from,count,a);
+  store_lanes_<Real,N>(b,from,count,a);
   for (int k = 0; k < count; ++k)
     if (a.status[k] < 0) run_point<Real, N>(m, b, Task::increment, from + k);
 }
@@ -178,10 +195,11 @@ void store_points(const Material<Real>& m, const Block<Real>& b, int from, int c
 template <class Real, int N>
 void run_pass(const Material<Real>& m, const Block<Real>& b, int from, int count) {
   Points<Real, N> a;
-  Work<Real, N> works[vectors_of_pass<Real>];
-  List<Real> unfinished;
-  first_round<Real, N>(m, b, from, count, a, unfinished, works);
-  while (unfinished.count > 0) next_round<Real, N>(m, a, unfinished, works);
+  Unset<Work<Real, N>[vectors_of_pass<Real>]> room;
+  auto* const works = room.value;
+  List<Real> list;
+  first_round<Real, N>(m, b, from, count, a, list, works);
+  while (list.count > 0) next_round<Real, N>(m, a, list, works);
   store_points<Real, N>(m, b, from, count, a);
 }
 

@@ -76,7 +76,8 @@ void settle(Progress<Real, N>& at, const Substep<Lane, N>& end, const Mask<Lane>
 }
 
 /// Tries an elastic substep of lanes; those that yield are for a plastic one.
-template <class Real, int N> void try_elastic(const Material<Real>& m, Work<Real, N>* works, int count) {
+template <class Real, int N>
+__attribute__((flatten, noinline)) void try_elastic(const Material<Real>& m, Work<Real, N>* works, int count) {
   using W = Work<Real, N>;
   using Lane = typename W::Lane;
   const Lane zero = Real(0);
@@ -141,7 +142,8 @@ template <class Real, int N> void newton(const Material<Real>& m, Work<Real, N>*
 }
 
 /// Tries a plastic substep of those lanes that yield in their trials.
-template <class Real, int N> void try_plastic(const Material<Real>& m, Work<Real, N>* works, int count) {
+template <class Real, int N>
+__attribute__((flatten, noinline)) void try_plastic(const Material<Real>& m, Work<Real, N>* works, int count) {
   using W = Work<Real, N>;
   using Lane = typename W::Lane;
   const auto each = [&](const auto& part) {
