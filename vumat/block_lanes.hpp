@@ -71,39 +71,47 @@ template <class Real, int N> void scatter(Progress<Real, N>& at, Points<Real, N>
   });
 }
 
-/// Lanes of `count` values from an array; the last stands for those beyond it.
-template <class Real> Lanes<Real, lane_count<Real>> load_lanes(const Real* from, int count) {
-  if (count >= lane_count<Real>) return Lanes<Real, lane_count<Real>>::read(from);
-  Lanes<Real, lane_count<Real>> a;
-  for (int i = 0; i < lane_count<Real>; ++i) a.set(i, from[std::min(i, count - 1)]);
-  return a;
-}
+/// Neighbours of a block, from a point on: as many as there are lanes, or (`whole` false) the last of a block.
+template <class Real, bool whole> struct Row {
+  using Lane = Lanes<Real, lane_count<Real>>;
+  int points, first, count;
 
-/// Writes the first `count` lanes where the mask holds.
-template <class Real, class Mask>
-void store_lanes(const Lanes<Real, lane_count<Real>>& a, const Mask& mask, bool everywhere, Real* to,
-                 int count) {
-  if (count >= lane_count<Real>) {
-    (everywhere ? a : select(mask, a, load_lanes(to, count))).write(to);
-  } else {
+  /// Component c of an array; the last stands for points beyond the block.
+  Lane load(const Real* array, int c) const {
+    const Real* from = array + std::size_t(c) * points + first;
+    if constexpr (whole) return Lane::read(from);
+    if (count == 1) return Lane(*from);
+    Lane a;
+    for (int i = 0; i < lane_count<Real>; ++i) a.set(i, from[std::min(i, count - 1)]);
+    return a;
+  }
+  /// Writes lanes where the mask holds.
+  void store(const Lane& a, const Mask<Lane>& mask, bool everywhere, Real* array, int c) const {
+    Real* to = array + std::size_t(c) * points + first;
+    if (whole && everywhere) return a.write(to);
     for (int i = 0; i < count; ++i)
-      if (mask[i]) to[i] = a[i];
+      if (everywhere || mask[i]) to[i] = a[i];
   }
+};
+
+/// Calls f(row, i) for the rows of some points of a block.
+template <class Real, class F> void each_row(const Block<Real>& b, int first, int count, const F& f) {
+  constexpr int lanes = lane_count<Real>;
+  int i = 0;
+  for (; (i + 1) * lanes <= count; ++i) f(Row<Real, true>{b.points, first + i * lanes, lanes}, i);
+  if (i * lanes < count) f(Row<Real, false>{b.points, first + i * lanes, count - i * lanes}, i);
 }
 
-/// Neighbours from point k of a block on, before their increments.
-template <class Real, int N>
-void load_points(const Block<Real>& b, int k, int count, Progress<Real, N>& at) {
-  const auto load = [&](const Real* array, int c) {
-    return load_lanes(array + std::size_t(c) * b.points + k, count);
-  };
+/// Points before their increments.
+template <class Real, int N, class Row>
+void load_points(const Block<Real>& b, const Row& row, Progress<Real, N>& at) {
   for (int c = 0; c < N; ++c) {
-    at.point.stress[c] = -load(b.stress_old, c);
-    at.strain[c] = -load(b.strain, c);
+    at.point.stress[c] = -row.load(b.stress_old, c);
+    at.strain[c] = -row.load(b.strain, c);
   }
-  at.point.void_ratio = load(b.state_old, statev::void_ratio);
-  at.point.plastic_strain = load(b.state_old, statev::plastic_deviatoric_strain);
-  at.point.separation_strain = load(b.state_old, statev::separation_strain);
+  at.point.void_ratio = row.load(b.state_old, statev::void_ratio);
+  at.point.plastic_strain = row.load(b.state_old, statev::plastic_deviatoric_strain);
+  at.point.separation_strain = row.load(b.state_old, statev::separation_strain);
   at.done = at.dissipation = at.status = at.nonconvex = Real(0);
   at.size = Real(1);
 }
@@ -136,7 +144,7 @@ __attribute__((flatten)) void first_round(const Material<Real>& m, const Block<R
                                           Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
   constexpr int lanes = lane_count<Real>;
   const int vectors = (count + lanes - 1) / lanes;
-  for (int i = 0; i < vectors; ++i) load_points(b, from + i * lanes, count - i * lanes, works[i]);
+  each_row(b, from, count, [&](const auto& row, int i) { load_points(b, row, works[i]); });
   try_elastic<Real, N>(m, works, vectors);
   for (int i = 0; i < vectors; ++i) {
     stay_apart(works[i]);
@@ -151,44 +159,42 @@ __attribute__((flatten)) void first_round(const Material<Real>& m, const Block<R
   }
 }
 
-/// Writes what a pass gave to the block; what lanes refused is updated alone.
-template <class Real, int N>
-__attribute__((flatten, noinline)) void store_lanes_(const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
-  using Lane = Lanes<Real, lane_count<Real>>;
-  for (int v = 0; v < count; v += lane_count<Real>) {
-    const auto column = [&](const Real* values) { return load_lanes(values + v, lane_count<Real>); };
-    const auto load = [&](const Real* array, int c) {
-      return load_lanes(array + std::size_t(c) * b.points + from + v, count - v);
-    };
-    const Lane zero = Real(0), status = column(a.status);
-    const Mask<Lane> through = status >= zero;
-    const bool all_through = all(through);
-    const auto put = [&](Real* array, int c, const Lane& value) {
-      store_lanes(value, through, all_through, array + std::size_t(c) * b.points + from + v, count - v);
-    };
-    SymmetricTensor<Lane, N> twice_mean, strain;
-    for (int c = 0; c < N; ++c) {
-      const Lane stress = column(a.stress[c]);
-      twice_mean[c] = stress - load(b.stress_old, c);
-      strain[c] = column(a.strain[c]);
-      put(b.stress_new, c, 0 - stress); // no -0
-    }
-    put(b.state_new, statev::void_ratio, column(a.void_ratio));
-    put(b.state_new, statev::plastic_deviatoric_strain, column(a.plastic_strain));
-    put(b.state_new, statev::separation_strain, max(column(a.separation_strain), zero));
-    put(b.state_new, statev::status, status);
-    put(b.state_new, statev::nonconvex_updates, load(b.state_new, statev::nonconvex_updates) + column(a.nonconvex));
-    const Lane density = load(b.density, 0);
-    const Lane volume = select(density > zero, 1 / density, zero);
-    put(b.internal_new, 0, load(b.internal_new, 0) + contract(twice_mean, strain) * Real(0.5) * volume);
-    put(b.inelastic_new, 0, load(b.inelastic_new, 0) + column(a.dissipation) * volume);
+/// Writes points to the block, but for those that lanes refused.
+template <class Real, int N, class Row>
+void store_points(const Block<Real>& b, const Row& row, const Points<Real, N>& a, int first) {
+  using Lane = typename Row::Lane;
+  const auto column = [&](const Real* values) { return Lane::read(values + first); };
+  const Lane zero = Real(0), status = column(a.status);
+  const Mask<Lane> through = status >= zero;
+  const bool all_through = all(through);
+  const auto put = [&](Real* array, int c, const Lane& value) {
+    row.store(value, through, all_through, array, c);
+  };
+  SymmetricTensor<Lane, N> twice_mean, strain;
+  for (int c = 0; c < N; ++c) {
+    const Lane stress = column(a.stress[c]);
+    twice_mean[c] = stress - row.load(b.stress_old, c);
+    strain[c] = column(a.strain[c]);
+    put(b.stress_new, c, 0 - stress); // no -0
   }
+  // A quotient, as a product could be fused with the sum for some blocks and not for others.
+  const Lane density = row.load(b.density, 0), work = contract(twice_mean, strain) * Real(0.5);
+  const auto per_mass = [&](const Lane& energy) { return select(density > zero, energy / density, zero); };
+  put(b.state_new, statev::void_ratio, column(a.void_ratio));
+  put(b.state_new, statev::plastic_deviatoric_strain, column(a.plastic_strain));
+  put(b.state_new, statev::separation_strain, max(column(a.separation_strain), zero));
+  put(b.state_new, statev::status, status);
+  put(b.state_new, statev::nonconvex_updates,
+      row.load(b.state_new, statev::nonconvex_updates) + column(a.nonconvex));
+  put(b.internal_new, 0, row.load(b.internal_new, 0) + per_mass(work));
+  put(b.inelastic_new, 0, row.load(b.inelastic_new, 0) + per_mass(column(a.dissipation)));
 }
+
+/// What a pass gave; what lanes refused is updated alone.
 template <class Real, int N>
-void store_points(const Material<Real>& m, const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
-  store_lanes_<Real,N>(b,from,count,a);
-  for (int k = 0; k < count; ++k)
-    if (a.status[k] < 0) run_point<Real, N>(m, b, Task::increment, from + k);
+__attribute__((flatten)) void store_pass(const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
+  each_row(b, from, count,
+           [&](const auto& row, int i) { store_points(b, row, a, i * lane_count<Real>); });
 }
 
 /// Up to points_of_pass points from one on.
@@ -200,7 +206,9 @@ void run_pass(const Material<Real>& m, const Block<Real>& b, int from, int count
   List<Real> list;
   first_round<Real, N>(m, b, from, count, a, list, works);
   while (list.count > 0) next_round<Real, N>(m, a, list, works);
-  store_points<Real, N>(m, b, from, count, a);
+  store_pass<Real, N>(b, from, count, a);
+  for (int k = 0; k < count; ++k)
+    if (a.status[k] < 0) run_point<Real, N>(m, b, Task::increment, from + k);
 }
 
 template <class Real, int N> void run_lanes(const Material<Real>& m, const Block<Real>& b) {
