@@ -48,11 +48,9 @@ template <class Real> struct List {
     position[count] = at;
     count += really;
   }
-  /// Repeats the last of `used` positions until lanes are full. Returns how many registers they fill.
-  int fill(int used) {
-    int end = used;
-    for (; end % lane_count<Real> != 0; ++end) position[end] = position[used - 1];
-    return end / lane_count<Real>;
+  /// Repeats the last of `used` positions until lanes are full.
+  void fill(int used) {
+    for (int end = used; end % lane_count<Real> != 0; ++end) position[end] = position[used - 1];
   }
 };
 
@@ -126,36 +124,40 @@ template <class Real, int N> void put_points(Work<Real, N>& w, Points<Real, N>& 
 
 /// A substep of the points listed. Afterwards those with strain left are listed.
 template <class Real, int N>
-__attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list,
-                                         Work<Real, N>* works) {
-  constexpr int lanes = lane_count<Real>;
-  const int count = std::exchange(list.count, 0), vectors = list.fill(count);
-  for (int i = 0; i < vectors; ++i) gather(a, list.position + i * lanes, works[i]);
-  try_elastic<Real, N>(m, works, vectors);
-  try_plastic<Real, N>(m, works, vectors);
-  for (int i = 0; i < vectors; ++i) scatter(works[i], a, list.position + i * lanes);
+void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
+  const int count = std::exchange(list.count, 0);
+  list.fill(count);
+  Team<Real, N> team;
+  for (int i = 0; i < count; i += lane_count<Real>)
+    gather(a, list.position + i, *(team.member[team.count] = works + team.count)), ++team.count;
+  try_elastic(m, team);
+  try_plastic(m, team);
+  for (int i = 0; i < team.count; ++i) scatter(works[i], a, list.position + i * lane_count<Real>);
   for (int i = 0; i < count; ++i) list.add(list.position[i], unfinished(a, list.position[i]));
 }
 
 /// The whole increment of `count` points of a block from one on. Afterwards those with strain left are listed; if
 /// few yield they are left for a round where they fill their registers.
 template <class Real, int N>
-__attribute__((flatten)) void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count,
-                                          Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
-  constexpr int lanes = lane_count<Real>;
-  const int vectors = (count + lanes - 1) / lanes;
-  each_row(b, from, count, [&](const auto& row, int i) { load_points(b, row, works[i]); });
-  try_elastic<Real, N>(m, works, vectors);
-  for (int i = 0; i < vectors; ++i) {
-    stay_apart(works[i]);
-    put_points(works[i], a, i * lanes);
-  }
-  for (int k = 0; k < count; ++k) list.add(k, unfinished(a, k));
-  if (vectors == 1 || list.count > vectors * lanes * 3 / 4) {
-    try_plastic<Real, N>(m, works, vectors);
-    for (int i = 0; i < vectors; ++i) put_points(works[i], a, i * lanes);
+void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count, Points<Real, N>& a,
+                 List<Real>& list, Work<Real, N>* works) {
+  Team<Real, N> team;
+  each_row(b, from, count, [&](const auto& row, int i) {
+    load_points(b, row, works[i]);
+    team.member[team.count++] = works + i;
+  });
+  const auto put = [&] {
+    for (int i = 0; i < team.count; ++i) put_points(works[i], a, i * lane_count<Real>);
     list.count = 0;
     for (int k = 0; k < count; ++k) list.add(k, unfinished(a, k));
+  };
+  try_elastic(m, team);
+  team.each([](auto& w) { stay_apart(w); });
+  put();
+  const int full = team.without(&Work<Real, N>::rests).count * lane_count<Real>;
+  if (list.count > 0 && (team.count == 1 || list.count > full * 3 / 4)) {
+    try_plastic(m, team);
+    put();
   }
 }
 

@@ -34,7 +34,7 @@ template <class Real, int N> struct Work : Progress<Real, N> {
   Density<Lane> density;
   Candidate<Lane> full, end; ///< with all functions evaluated; a step of Newton's rule from there
   Lane measure_step, measure;
-  Mask<Lane> yields, solved;
+  Mask<Lane> rests, solved; ///< refused, or at its end without yielding
 };
 
 /// The points of `a` where the mask holds, else those of `b`.
@@ -75,93 +75,100 @@ void settle(Progress<Real, N>& at, const Substep<Lane, N>& end, const Mask<Lane>
   at.size = select(tried, min(next, 1 - at.done), at.size);
 }
 
+/// Lanes that go through the parts of a substep together.
+template <class Real, int N> struct Team {
+  int count = 0;
+  Work<Real, N>* member[points_of_pass / lane_count<Real>];
+
+  template <class F> void each(const F& part) const {
+    for (int i = 0; i < count; ++i) part(*member[i]);
+  }
+  /// Those of whose lanes some are not in a mask.
+  Team without(Mask<typename Work<Real, N>::Lane> Work<Real, N>::*mask) const {
+    Team out;
+    each([&](auto& w) {
+      out.member[out.count] = &w;
+      out.count += !all(w.*mask);
+    });
+    return out;
+  }
+};
+
 /// Tries an elastic substep of lanes; those that yield are for a plastic one.
 template <class Real, int N>
-__attribute__((flatten, noinline)) void try_elastic(const Material<Real>& m, Work<Real, N>* works, int count) {
+__attribute__((flatten, noinline)) void try_elastic(const Material<Real>& m, const Team<Real, N>& all_lanes) {
   using W = Work<Real, N>;
   using Lane = typename W::Lane;
-  const Lane zero = Real(0);
-  const auto each = [&](const auto& part) {
-    for (int i = 0; i < count; ++i) part(works[i]);
-  };
-  each([&](W& w) { begin_trial(m, w.point, scale(w.size, w.strain), w.trial); });
-  each([&](W& w) { trial_measure(m, w.trial); });
-  each([&](W& w) { trial_log_ratio(m, w.trial); });
-  each([&](W& w) { trial_pressure(m, w.trial); });
-  each([&](W& w) { trial_density(m, w.trial); });
-  each([&](W& w) { end_trial(m, w.trial); });
-  each([&](W& w) {
-    const Mask<Lane> fit = admissible(w.point, w.strain) & (w.point.separation_strain <= zero) &
-                           (trace(w.point.stress) > zero);
-    w.yields = fit & !w.trial.inside;
-    settle(w, elastic_end(m, w.trial), fit & w.trial.inside, fit);
-    w.status = select(fit, w.status, Lane(Real(refused)));
+  all_lanes.each([&](W& w) {
+    const Lane zero = Real(0);
+    w.rests = !(admissible(w.point, w.strain) & (w.point.separation_strain <= zero) &
+                (trace(w.point.stress) > zero));
+    w.status = select(w.rests, Lane(Real(refused)), w.status);
+  });
+  const auto team = all_lanes.without(&W::rests);
+  team.each([&](W& w) { begin_trial(m, w.point, scale(w.size, w.strain), w.trial); });
+  team.each([&](W& w) { trial_measure(m, w.trial); });
+  team.each([&](W& w) { trial_log_ratio(m, w.trial); });
+  team.each([&](W& w) { trial_pressure(m, w.trial); });
+  team.each([&](W& w) { trial_density(m, w.trial); });
+  team.each([&](W& w) { end_trial(m, w.trial); });
+  team.each([&](W& w) {
+    const Mask<Lane> elastic = w.trial.inside & !w.rests;
+    settle(w, elastic_end(m, w.trial), elastic, elastic);
+    w.rests |= elastic;
   });
 }
 
 /// Newton's rule from the start, of each lane until it is solved. Steps by series find the neighbourhood of the
 /// answer; a full evaluation there is corrected by a last step, too short for an error. Lanes that this leaves
 /// unsolved, or that head for y = 0, are for shorter steps.
-template <class Real, int N> void newton(const Material<Real>& m, Work<Real, N>* works, int count) {
+template <class Real, int N> void newton(const Material<Real>& m, Team<Real, N> team) {
   using W = Work<Real, N>;
   using Lane = typename W::Lane;
-  int open[points_of_pass / lane_count<Real>]; // with lanes that are not solved
-  for (int i = 0; i < count; ++i) open[i] = i;
-  const auto each = [&](const auto& part) {
-    for (int i = 0; i < count; ++i) part(works[open[i]]);
-  };
   const auto step = [&](Candidate<Lane> W::*from) {
-    each([&](W& w) { w.measure_step = newton_step(m, w.trial.in, w.*from); });
-    each([&](W& w) { shift(m, w.*from, w.measure_step, w.end); });
-    each([&](W& w) { evaluate(m, w.trial.in, w.end); });
+    team.each([&](W& w) { w.measure_step = newton_step(m, w.trial.in, w.*from); });
+    team.each([&](W& w) { shift(m, w.*from, w.measure_step, w.end); });
+    team.each([&](W& w) { evaluate(m, w.trial.in, w.end); });
   };
-  each([&](W& w) { first_candidate(m, w.trial.in, w.full); });
-  each([&](W& w) { evaluate(m, w.trial.in, w.full); });
+  team.each([&](W& w) { first_candidate(m, w.trial.in, w.full); });
+  team.each([&](W& w) { evaluate(m, w.trial.in, w.full); });
   step(&W::full);
   step(&W::end);
-  each([&](W& w) { w.measure = w.end.pressure.measure; });
-  for (int k = 0; k <= largest_newton_count && count > 0; ++k) {
-    each([&](W& w) { w.full.pressure.measure = max(w.measure, Lane(Real(0))); });
-    each([&](W& w) { w.full.pressure.log_ratio = log_ratio_of_measure(m, w.full.pressure.measure); });
-    each([&](W& w) {
-      w.full.pressure = pressure_of_measure(m, w.full.pressure.measure, w.full.pressure.log_ratio);
+  team.each([&](W& w) { w.measure = max(w.end.pressure.measure, Lane(Real(0))); });
+  for (int k = 0; k <= largest_newton_count && team.count > 0; ++k) {
+    team.each([&](W& w) { w.full.pressure.log_ratio = log_ratio_of_measure(m, w.measure); });
+    team.each([&](W& w) {
+      w.full.pressure = pressure_of_measure(m, w.measure, w.full.pressure.log_ratio);
       w.density = density(m, w.trial.in.e_end, w.full.pressure);
     });
-    each([&](W& w) { w.full.slopes = slopes(m, w.density, w.trial.in.sin3theta); });
-    each([&](W& w) { evaluate(m, w.trial.in, w.full); });
+    team.each([&](W& w) { w.full.slopes = slopes(m, w.density, w.trial.in.sin3theta); });
+    team.each([&](W& w) { evaluate(m, w.trial.in, w.full); });
     step(&W::full);
-    each([&](W& w) {
-      w.solved |= solved(m, w.trial.in, w.end, largest_multiplier(m, w.trial.in)) & short_step(m, w.full, w.end);
-      w.measure = select(w.solved, w.measure, w.end.pressure.measure);
+    team.each([&](W& w) {
+      const Lane most = largest_multiplier(m, w.trial.in);
+      w.solved |= solved(m, w.trial.in, w.end, most) & short_step(m, w.full, w.end);
+      w.measure = select(w.solved, w.measure, max(w.end.pressure.measure, Lane(Real(0))));
     });
-    int left = 0;
-    for (int i = 0; i < count; ++i)
-      if (!all(works[open[i]].solved)) open[left++] = open[i];
-    count = left;
+    team = team.without(&W::solved);
   }
 }
 
-/// Tries a plastic substep of those lanes that yield in their trials.
+/// Tries a plastic substep of the lanes that yield in their trials.
 template <class Real, int N>
-__attribute__((flatten, noinline)) void try_plastic(const Material<Real>& m, Work<Real, N>* works, int count) {
+__attribute__((flatten, noinline)) void try_plastic(const Material<Real>& m, const Team<Real, N>& all_lanes) {
   using W = Work<Real, N>;
   using Lane = typename W::Lane;
-  const auto each = [&](const auto& part) {
-    for (int i = 0; i < count; ++i) part(works[i]);
-  };
-  const Lane zero = Real(0);
-  each([&](W& w) { w.density = density(m, w.trial.in.e_start, w.trial.in.start); });
-  each([&](W& w) {
+  const auto team = all_lanes.without(&W::rests);
+  team.each([&](W& w) { w.density = density(m, w.trial.in.e_start, w.trial.in.start); });
+  team.each([&](W& w) {
     w.trial.in.slopes_start = slopes(m, w.density, sin_3theta(w.trial.s_old, w.trial.in.q_start));
   });
-  each([&](W& w) {
-    w.flow = turn_deviator(m, w.trial);
-    w.solved = !w.yields;
-  });
-  newton(m, works, count);
-  each([&](W& w) {
-    const Mask<Lane> parted = w.yields & (w.end.pressure.measure <= zero);
-    settle(w, plastic_end(m, w.trial, w.flow, w.end), w.yields & !parted, w.solved);
+  team.each([&](W& w) { w.flow = turn_deviator(m, w.trial); });
+  team.each([&](W& w) { w.solved = w.rests; });
+  newton(m, team);
+  team.each([&](W& w) {
+    const Mask<Lane> parted = (w.end.pressure.measure <= Lane(Real(0))) & !w.rests;
+    settle(w, plastic_end(m, w.trial, w.flow, w.end), !(w.rests | parted), w.solved);
     w.status = select(parted, Lane(Real(refused)), w.status);
   });
 }
