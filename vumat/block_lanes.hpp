@@ -124,7 +124,7 @@ template <class Real, int N> void put_points(Work<Real, N>& w, Points<Real, N>& 
 
 /// A substep of the points listed. Afterwards those with strain left are listed.
 template <class Real, int N>
-void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
+__attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
   const int count = std::exchange(list.count, 0);
   list.fill(count);
   Team<Real, N> team;
@@ -139,7 +139,7 @@ void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list, W
 /// The whole increment of `count` points of a block from one on. Afterwards those with strain left are listed; if
 /// few yield they are left for a round where they fill their registers.
 template <class Real, int N>
-void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count, Points<Real, N>& a,
+__attribute__((flatten)) void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count, Points<Real, N>& a,
                  List<Real>& list, Work<Real, N>* works) {
   Team<Real, N> team;
   each_row(b, from, count, [&](const auto& row, int i) {

@@ -173,33 +173,30 @@ template <class Real> Slopes<Real> at_angle(Slopes<Real> M, Real sin3theta) {
   return M;
 }
 
-/// A void ratio beside the critical one.
-template <class Real> struct Density {
-  Real log_ratio; ///< ln (e_c / e), positive in dense sand
-  Real change;    ///< d ln e_c / d ln p above p_min
-};
-
-template <class Real> Density<Real> density(const MaterialOf<Real>& m, Real e, const Pressure<Real>& p) {
-  const Real e_c = critical_void_ratio(m, p.log_ratio);
-  return {log(e_c / e), select(e_c > smallest_void_ratio<Scalar<Real>>,
-                               m.given.zeta * (1 - m.given.e_ref / e_c), Real(0))};
+/// ln (e_c / e), positive in dense sand.
+template <class Real> Real density(Real critical_void_ratio, Real e) {
+  return log(critical_void_ratio / e);
 }
 
-template <class Real> Real peak_tangent(const MaterialOf<Real>& m, Real dense) {
-  return bounded_exp(m.given.n_p * dense) * m.tan_phi; // (4)
+template <class Real> Real peak_tangent(const MaterialOf<Real>& m, Real density) {
+  return bounded_exp(m.given.n_p * density) * m.tan_phi; // (4)
 }
 
-template <class Real> Slopes<Real> slopes(const MaterialOf<Real>& m, const Density<Real>& d, Real sin3theta) {
-  Slopes<Real> M;
-  M.peak_tangent = peak_tangent(m, d.log_ratio);
-  M.transformation_tangent = bounded_exp(-m.given.n_d * d.log_ratio) * m.tan_phi; // (5)
-  M.density_change = d.change;
-  return at_angle(M, sin3theta);
+/// Slopes but for the Lode angle.
+template <class Real>
+void set_tangents(const MaterialOf<Real>& m, Real critical_void_ratio, Real density, Slopes<Real>& M) {
+  M.peak_tangent = peak_tangent(m, density);
+  M.transformation_tangent = bounded_exp(-m.given.n_d * density) * m.tan_phi; // (5)
+  M.density_change = select(critical_void_ratio > smallest_void_ratio<Scalar<Real>>,
+                            m.given.zeta * (1 - m.given.e_ref / critical_void_ratio), Real(0));
 }
 
 template <class Real>
 Slopes<Real> slopes(const MaterialOf<Real>& m, Real e, const Pressure<Real>& p, Real sin3theta) {
-  return slopes(m, density(m, e, p), sin3theta);
+  const Real e_c = critical_void_ratio(m, p.log_ratio);
+  Slopes<Real> M;
+  set_tangents(m, e_c, density(e_c, e), M);
+  return at_angle(M, sin3theta);
 }
 
 /// Largest change of ln (e_c / e) that `denser_by` sees: with n_p, n_d <= 20 tangents stay positive.

@@ -31,7 +31,7 @@ template <class Real, int N> struct Work : Progress<Real, N> {
   using Lane = Lanes<Real, lane_count<Real>>;
   Trial<Lane, N> trial;
   Flow<Lane, N> flow;
-  Density<Lane> density;
+  Lane critical, density;    ///< void ratio e_c, ln (e_c / e)
   Candidate<Lane> full, end; ///< with all functions evaluated; a step of Newton's rule from there
   Lane measure_step, measure;
   Mask<Lane> rests, solved; ///< refused, or at its end without yielding
@@ -111,6 +111,7 @@ __attribute__((flatten, noinline)) void try_elastic(const Material<Real>& m, con
   team.each([&](W& w) { trial_log_ratio(m, w.trial); });
   team.each([&](W& w) { trial_pressure(m, w.trial); });
   team.each([&](W& w) { trial_density(m, w.trial); });
+  team.each([&](W& w) { trial_tangent(m, w.trial); });
   team.each([&](W& w) { end_trial(m, w.trial); });
   team.each([&](W& w) {
     const Mask<Lane> elastic = w.trial.inside & !w.rests;
@@ -139,9 +140,11 @@ template <class Real, int N> void newton(const Material<Real>& m, Team<Real, N> 
     team.each([&](W& w) { w.full.pressure.log_ratio = log_ratio_of_measure(m, w.measure); });
     team.each([&](W& w) {
       w.full.pressure = pressure_of_measure(m, w.measure, w.full.pressure.log_ratio);
-      w.density = density(m, w.trial.in.e_end, w.full.pressure);
+      w.critical = critical_void_ratio(m, w.full.pressure.log_ratio);
     });
-    team.each([&](W& w) { w.full.slopes = slopes(m, w.density, w.trial.in.sin3theta); });
+    team.each([&](W& w) { w.density = density(w.critical, w.trial.in.e_end); });
+    team.each([&](W& w) { set_tangents(m, w.critical, w.density, w.full.slopes); });
+    team.each([&](W& w) { w.full.slopes = at_angle(w.full.slopes, w.trial.in.sin3theta); });
     team.each([&](W& w) { evaluate(m, w.trial.in, w.full); });
     step(&W::full);
     team.each([&](W& w) {
@@ -159,9 +162,12 @@ __attribute__((flatten, noinline)) void try_plastic(const Material<Real>& m, con
   using W = Work<Real, N>;
   using Lane = typename W::Lane;
   const auto team = all_lanes.without(&W::rests);
-  team.each([&](W& w) { w.density = density(m, w.trial.in.e_start, w.trial.in.start); });
+  team.each([&](W& w) { w.critical = critical_void_ratio(m, w.trial.in.start.log_ratio); });
+  team.each([&](W& w) { w.density = density(w.critical, w.trial.in.e_start); });
+  team.each([&](W& w) { set_tangents(m, w.critical, w.density, w.trial.in.slopes_start); });
   team.each([&](W& w) {
-    w.trial.in.slopes_start = slopes(m, w.density, sin_3theta(w.trial.s_old, w.trial.in.q_start));
+    auto& M = w.trial.in.slopes_start;
+    M = at_angle(M, sin_3theta(w.trial.s_old, w.trial.in.q_start));
   });
   team.each([&](W& w) { w.flow = turn_deviator(m, w.trial); });
   team.each([&](W& w) { w.solved = w.rests; });

@@ -47,7 +47,9 @@ Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>&
   in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(trial.s_old, in.q_start));
   const auto flow = turn_deviator(m, trial);
   Attempt<Real, N> out;
-  const auto first = candidate(m, trial.in, trial.pressure, slopes(m, trial.density, in.sin3theta));
+  Slopes<Real> at_trial;
+  set_tangents(m, trial.critical, trial.density, at_trial);
+  const auto first = candidate(m, in, trial.pressure, at_angle(at_trial, in.sin3theta));
   const auto end = solve(m, in, first, out.converged);
   const bool parted = end.pressure.measure == 0;
   static_cast<Substep<Real, N>&>(out) =

@@ -24,8 +24,8 @@ template <class Real, int N> struct Trial {
   SymmetricTensor<Real, N> s_old, s_trial, e_dev; ///< deviators
   Real measure;                            ///< y, not bounded
   Pressure<Real> pressure;
-  Density<Real> density;
-  Real peak; ///< M_p
+  Real critical, density; ///< void ratio e_c, ln (e_c / e)
+  Real tangent, peak;     ///< of the peak friction angle; M_p
   Real q, shear_modulus;
   Real f;            ///< of (8)
   Mask<Real> inside; ///< the step is elastic
@@ -74,18 +74,23 @@ template <class Real, int N> void trial_log_ratio(const MaterialOf<Real>& m, Tri
 
 template <class Real, int N> void trial_pressure(const MaterialOf<Real>& m, Trial<Real, N>& t) {
   t.pressure = pressure_of_measure(m, t.pressure.measure, t.pressure.log_ratio);
+  t.critical = critical_void_ratio(m, t.pressure.log_ratio);
   t.shear_modulus = mean_shear_modulus(m, t.in, t.pressure);
   t.s_trial = add(t.s_old, 2 * t.shear_modulus, t.e_dev);
   t.q = deviatoric_stress(t.s_trial);
 }
 
-template <class Real, int N> void trial_density(const MaterialOf<Real>& m, Trial<Real, N>& t) {
-  t.density = density(m, t.in.e_end, t.pressure);
+template <class Real, int N> void trial_density(const MaterialOf<Real>&, Trial<Real, N>& t) {
+  t.density = density(t.critical, t.in.e_end);
+  t.in.sin3theta = sin_3theta(t.s_trial, t.q);
 }
 
-template <class Real, int N> void end_trial(const MaterialOf<Real>& m, Trial<Real, N>& t) {
-  t.in.sin3theta = sin_3theta(t.s_trial, t.q);
-  t.peak = slope(peak_tangent(m, t.density.log_ratio), t.in.sin3theta).value;
+template <class Real, int N> void trial_tangent(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.tangent = peak_tangent(m, t.density);
+}
+
+template <class Real, int N> void end_trial(const MaterialOf<Real>&, Trial<Real, N>& t) {
+  t.peak = slope(t.tangent, t.in.sin3theta).value;
   const Real p = t.pressure.mean_stress;
   t.f = yield_function(t.q, p, t.peak, t.in.eps_d * t.in.inverse_start); // (8)
   t.inside = (t.measure > 0) & (t.f <= rounding<Scalar<Real>> * p);
@@ -101,6 +106,7 @@ Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& ol
   trial_log_ratio(m, t);
   trial_pressure(m, t);
   trial_density(m, t);
+  trial_tangent(m, t);
   end_trial(m, t);
   return t;
 }
