@@ -13,9 +13,10 @@ inline constexpr int largest_iteration_count = 100, largest_newton_count = 5;
 template <class T> inline constexpr T tolerance = std::max(T(1e-12), 8 * std::numeric_limits<T>::epsilon());
 template <class T> inline constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
 
-/// Change of ln p that the last step by series may make: its error in p and M is of the order of its square.
+/// Relative error of M that the last step by series may leave, and the largest change of ln p of such a step.
 template <class T>
-inline constexpr T largest_last_step = std::max(T(1e-7), 8 * std::numeric_limits<T>::epsilon());
+inline constexpr T series_error = std::max(T(1e-12), 4 * std::numeric_limits<T>::epsilon());
+inline constexpr double largest_last_step = 1e-3;
 
 /// What does not change while the mean stress at the end of the substep is sought.
 template <class Real> struct Increment {
@@ -23,7 +24,7 @@ template <class Real> struct Increment {
   Real e_start, e_end;
   Real volumetric;               ///< total volumetric strain
   Real stiffening;               ///< K0 times the mean void ratio factor: dy per elastic volumetric strain
-  Real eps_d;                    ///< at the start
+  Real eps_d, inverse_start;     ///< at the start; of k_p + eps_d
   Real q_start;                  ///< of the deviator at the start
   Real stress_work, strain_norm; ///< s:de and de:de of the deviators
   Real sin3theta;                ///< of the deviator at the end
@@ -37,6 +38,7 @@ template <class Real> struct Candidate {
   Real shear_modulus; ///< mean over the substep
   Real q_trial;
   Real multiplier;
+  Real inverse;            ///< of k_p + eps_d
   Real share;              ///< mobilised at the end
   Real mean_share;         ///< mobilised on average
   Real plastic_volumetric; ///< multiplier times mean dilatancy
@@ -69,22 +71,30 @@ template <class Real> Real plastic_multiplier(Real q_trial, Real G, Real B, Scal
   return select(c <= 0, Real(0), x);
 }
 
-/// All that follows from a pressure at the end of the substep, and the slopes there.
+/// All that follows from a pressure at the end of the substep and the slopes there.
+template <class Real>
+void evaluate(const MaterialOf<Real>& m, const Increment<Real>& in, Candidate<Real>& c) {
+  const Real p = c.pressure.mean_stress;
+  const Real G = c.shear_modulus = mean_shear_modulus(m, in, c.pressure);
+  c.q_trial = sqrt(max(in.q_start * in.q_start + 6 * G * (in.stress_work + G * in.strain_norm), Real(0)));
+  const Real x = c.multiplier = plastic_multiplier(c.q_trial, G, p * c.slopes.peak, m.given.k_p, in.eps_d);
+  const Real eps_d = in.eps_d + x;
+  c.inverse = 1 / (m.given.k_p + eps_d);
+  c.share = eps_d * c.inverse;
+  c.mean_share = mean_mobilised(m, in.inverse_start, x);
+  c.plastic_volumetric =
+      x * dilatancy(m, (in.slopes_start.transformation + c.slopes.transformation) * Real(0.5),
+                    (in.slopes_start.peak + c.slopes.peak) * Real(0.5), c.mean_share);
+  c.residual = c.pressure.measure - in.start.measure - in.stiffening * (in.volumetric - c.plastic_volumetric);
+}
+
 template <class Real>
 Candidate<Real> candidate(const MaterialOf<Real>& m, const Increment<Real>& in, const Pressure<Real>& end,
                           const Slopes<Real>& at_end) {
   Candidate<Real> c;
   c.pressure = end;
   c.slopes = at_end;
-  const Real G = c.shear_modulus = mean_shear_modulus(m, in, end);
-  c.q_trial = sqrt(max(in.q_start * in.q_start + 6 * G * (in.stress_work + G * in.strain_norm), Real(0)));
-  c.multiplier = plastic_multiplier(c.q_trial, G, end.mean_stress * c.slopes.peak, m.given.k_p, in.eps_d);
-  c.share = mobilised(m, in.eps_d + c.multiplier);
-  c.mean_share = mean_mobilised(m, in.eps_d, c.multiplier);
-  c.plastic_volumetric =
-      c.multiplier * dilatancy(m, (in.slopes_start.transformation + c.slopes.transformation) * Real(0.5),
-                               (in.slopes_start.peak + c.slopes.peak) * Real(0.5), c.mean_share);
-  c.residual = end.measure - in.start.measure - in.stiffening * (in.volumetric - c.plastic_volumetric);
+  evaluate(m, in, c);
   return c;
 }
 
@@ -98,8 +108,7 @@ template <class Real>
 Real residual_slope(const MaterialOf<Real>& m, const Increment<Real>& in, const Candidate<Real>& c) {
   const Real p = c.pressure.mean_stress, G = c.shear_modulus, M_p = c.slopes.peak,
              M_pt = c.slopes.transformation;
-  const Real b = 1 / (m.given.k_p + in.eps_d + c.multiplier);
-  const Real hardening = p * M_p * m.given.k_p * b * b;
+  const Real hardening = p * M_p * m.given.k_p * c.inverse * c.inverse;
   const Real p_dM_p = m.given.n_p * M_p * c.slopes.peak_rate * c.slopes.density_change;
   const Real p_dM_pt = -m.given.n_d * M_pt * c.slopes.transformation_rate * c.slopes.density_change;
   // p dG / dp times dq/dG of the trial less 3x: what a stiffer point gains of q.
@@ -134,32 +143,35 @@ Mask<Real> solved(const MaterialOf<Real>& m, const Increment<Real>& in, const Ca
          tolerance<Scalar<Real>> * (c.pressure.measure + m.floor_measure) + rounding<Scalar<Real>> * terms;
 }
 
-/// A step of Newton's rule, with p and M by series from where they are.
+/// The change of measure by Newton's rule.
 template <class Real>
-Candidate<Real> nearby(const MaterialOf<Real>& m, const Increment<Real>& in, const Candidate<Real>& c) {
-  const auto end = shifted(m, c.pressure, -c.residual / residual_slope(m, in, c));
-  return candidate(m, in, end, shifted(m, c.slopes, end.log_ratio - c.pressure.log_ratio));
+Real newton_step(const MaterialOf<Real>& m, const Increment<Real>& in, const Candidate<Real>& c) {
+  return -c.residual / residual_slope(m, in, c);
 }
 
-/// Newton's rule from a first candidate, of each lane until it is solved. Steps by series find the neighbourhood
-/// of the answer; a full evaluation there is corrected by a last one, too short for an error. Lanes that
-/// this leaves unsolved, or that head for y = 0, are for shorter steps.
+/// Pressure and slopes after a change of measure, by series from where they are.
 template <class Real>
-Candidate<Real> newton(const MaterialOf<Real>& m, const Increment<Real>& in, Candidate<Real> c,
-                       const Mask<Real>& ignored, Mask<Real>& converged) {
-  const Real x_most = largest_multiplier(m, in);
-  for (int i = 0; i < 2; ++i) c = nearby(m, in, c);
-  converged = c.residual < c.residual;
-  Real y = c.pressure.measure;
-  for (int i = 0;; ++i) {
-    c = candidate(m, in, pressure_of_measure(m, max(y, Real(0))));
-    const auto next = nearby(m, in, c);
-    const Real change = abs(next.pressure.log_ratio - c.pressure.log_ratio);
-    const Mask<Real> found = solved(m, in, next, x_most) & (change <= largest_last_step<Scalar<Real>>);
-    converged = converged | found;
-    if (i == largest_newton_count || all(converged | ignored)) return next;
-    y = select(converged, y, next.pressure.measure);
-  }
+void shift(const MaterialOf<Real>& m, const Candidate<Real>& from, Real measure_step, Candidate<Real>& to) {
+  const Real log_ratio = from.pressure.log_ratio;
+  to.pressure = shifted(m, from.pressure, measure_step);
+  to.slopes = shifted(m, from.slopes, to.pressure.log_ratio - log_ratio);
+}
+
+/// The start as a guess of the end, with slopes near enough.
+template <class Real>
+void first_candidate(const MaterialOf<Real>& m, const Increment<Real>& in, Candidate<Real>& c) {
+  const Real denser = 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
+  c.pressure = in.start;
+  c.slopes = denser_by(m, in.slopes_start, denser, in.sin3theta);
+}
+
+/// Whether a step by series is short enough: what it leaves out of M grows with the square of the change.
+template <class Real>
+Mask<Real> short_step(const MaterialOf<Real>& m, const Candidate<Real>& from, const Candidate<Real>& to) {
+  const Real change = abs(to.pressure.log_ratio - from.pressure.log_ratio);
+  const Real rate = std::max(m.given.n_p, m.given.n_d) * abs(from.slopes.density_change);
+  const Real left_out = change * change * rate * (1 + rate);
+  return (left_out <= Real(series_error<Scalar<Real>>)) & (change <= Real(largest_last_step));
 }
 
 /// Solves residual(y) = 0 from a first candidate: Newton, then secants, kept inside a bracket by bisection.

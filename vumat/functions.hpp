@@ -36,9 +36,14 @@ template <class Real> struct Pressure {
   Real log_ratio; ///< ln (p / p_at), p not below p_min
 };
 
-template <class Real> Pressure<Real> pressure_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress) {
+/// ln (p / p_at), p not below p_min.
+template <class Real> Real log_ratio_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress) {
+  return log(max(mean_stress * (1 / m.given.p_at), Real(m.floor_pressure)));
+}
+
+template <class Real>
+Pressure<Real> pressure_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress, Real log_ratio) {
   const Real ratio = max(mean_stress, Real(0)) * (1 / m.given.p_at);
-  const Real log_ratio = log(max(ratio, Real(m.floor_pressure)));
   const Real w = exp((1 - m.given.n) * log_ratio);
   const Mask<Real> floored = ratio < m.floor_pressure;
   const Real stiffness = select(floored, Real(m.floor_stiffness), ratio / w);
@@ -47,22 +52,37 @@ template <class Real> Pressure<Real> pressure_of_mean_stress(const MaterialOf<Re
   return {max(mean_stress, Real(0)), measure, stiffness, log_ratio};
 }
 
-template <class Real> Pressure<Real> pressure_of_measure(const MaterialOf<Real>& m, Real measure) {
-  const Real above = max(measure - m.floor_measure, Real(0));
-  const Real w = m.floor_measure + (1 - m.given.n) * above; // (p / p_at)^(1-n)
-  const Real log_ratio = log(w) * (1 / (1 - m.given.n));
+template <class Real> Pressure<Real> pressure_of_mean_stress(const MaterialOf<Real>& m, Real mean_stress) {
+  return pressure_of_mean_stress(m, mean_stress, log_ratio_of_mean_stress(m, mean_stress));
+}
+
+/// (p / p_at)^(1-n), p not below p_min.
+template <class Real> Real power_of_measure(const MaterialOf<Real>& m, Real measure) {
+  return m.floor_measure + (1 - m.given.n) * max(measure - m.floor_measure, Real(0));
+}
+
+template <class Real> Real log_ratio_of_measure(const MaterialOf<Real>& m, Real measure) {
+  return log(power_of_measure(m, measure)) * (1 / (1 - m.given.n));
+}
+
+template <class Real>
+Pressure<Real> pressure_of_measure(const MaterialOf<Real>& m, Real measure, Real log_ratio) {
   const Real ratio = exp(log_ratio);
-  const Mask<Real> over = above > 0;
-  const Real stiffness = select(over, ratio / w, Real(m.floor_stiffness));
+  const Mask<Real> over = measure > m.floor_measure;
+  const Real stiffness = select(over, ratio / power_of_measure(m, measure), Real(m.floor_stiffness));
   const Real mean_stress = m.given.p_at * select(over, ratio, measure * m.floor_stiffness);
   return {mean_stress, measure, stiffness, log_ratio};
+}
+
+template <class Real> Pressure<Real> pressure_of_measure(const MaterialOf<Real>& m, Real measure) {
+  return pressure_of_measure(m, measure, log_ratio_of_measure(m, measure));
 }
 
 /// Pressure after a change of measure, by series in the change of ln p: relative error below 2e-4 where that is
 /// below 0.4, to rounding where below 1e-3. The measure moves by no more than half of (p / p_at)^(1-n) / (1-n).
 template <class Real>
 Pressure<Real> shifted(const MaterialOf<Real>& m, const Pressure<Real>& from, Real measure_change) {
-  const Real w = m.floor_measure + (1 - m.given.n) * max(from.measure - m.floor_measure, Real(0));
+  const Real w = power_of_measure(m, from.measure);
   const Real x = min(max((1 - m.given.n) * measure_change / w, Real(-0.5)), Real(0.5));
   const Real change = x * (1 - x * (Real(0.5) - x * (Real(1. / 3) - x * (Real(0.25) - x * Real(0.2))))) *
                       (1 / (1 - m.given.n));
@@ -153,27 +173,42 @@ template <class Real> Slopes<Real> at_angle(Slopes<Real> M, Real sin3theta) {
   return M;
 }
 
+/// ln (e_c / e), positive in dense sand.
+template <class Real> Real density(Real critical_void_ratio, Real e) {
+  return log(critical_void_ratio / e);
+}
+
+template <class Real> Real peak_tangent(const MaterialOf<Real>& m, Real density) {
+  return bounded_exp(m.given.n_p * density) * m.tan_phi; // (4)
+}
+
+/// Slopes but for the Lode angle.
+template <class Real>
+void set_tangents(const MaterialOf<Real>& m, Real critical_void_ratio, Real density, Slopes<Real>& M) {
+  M.peak_tangent = peak_tangent(m, density);
+  M.transformation_tangent = bounded_exp(-m.given.n_d * density) * m.tan_phi; // (5)
+  M.density_change = select(critical_void_ratio > smallest_void_ratio<Scalar<Real>>,
+                            m.given.zeta * (1 - m.given.e_ref / critical_void_ratio), Real(0));
+}
+
 template <class Real>
 Slopes<Real> slopes(const MaterialOf<Real>& m, Real e, const Pressure<Real>& p, Real sin3theta) {
   const Real e_c = critical_void_ratio(m, p.log_ratio);
-  const Real dense = log(e_c / e); // positive in dense sand
   Slopes<Real> M;
-  M.peak_tangent = bounded_exp(m.given.n_p * dense) * m.tan_phi;            // (4)
-  M.transformation_tangent = bounded_exp(-m.given.n_d * dense) * m.tan_phi; // (5)
-  M.density_change =
-      select(e_c > smallest_void_ratio<Scalar<Real>>, m.given.zeta * (1 - m.given.e_ref / e_c), Real(0));
+  set_tangents(m, e_c, density(e_c, e), M);
   return at_angle(M, sin3theta);
 }
 
 /// Largest change of ln (e_c / e) that `denser_by` sees: with n_p, n_d <= 20 tangents stay positive.
 inline constexpr double largest_series_change = 0.04;
 
-/// Slopes, but for their Lode angle, after a small change of ln (e_c / e).
-template <class Real> Slopes<Real> denser_by(const MaterialOf<Real>& m, Slopes<Real> M, Real change) {
+/// Slopes near enough for a first candidate, after a change of ln (e_c / e) and at another Lode angle.
+template <class Real>
+Slopes<Real> denser_by(const MaterialOf<Real>& m, Slopes<Real> M, Real change, Real sin3theta) {
   const Real bounded = min(max(change, Real(-largest_series_change)), Real(largest_series_change));
   M.peak_tangent = M.peak_tangent * (1 + m.given.n_p * bounded);
   M.transformation_tangent = M.transformation_tangent * (1 - m.given.n_d * bounded);
-  return M;
+  return at_angle(M, sin3theta);
 }
 
 /// Slopes after a small change of ln p.
@@ -189,11 +224,11 @@ template <class Real> Real mobilised(const MaterialOf<Real>& m, Real eps_d) {
   return eps_d / (m.given.k_p + eps_d);
 }
 
-/// Mean of the mobilised share while eps_d grows by x (17); relative error of its complement below 1e-3 for
+/// Mean of the mobilised share while eps_d grows by x, of the inverse of k_p + eps_d at the start (17); relative error of its complement below 1e-3 for
 /// x <= k_p + eps_d.
-template <class Real> Real mean_mobilised(const MaterialOf<Real>& m, Real eps_d, Real x) {
-  const Real b = m.given.k_p + eps_d, z = x / b;
-  return 1 - m.given.k_p / b * (6 + 3 * z) / (6 + z * (6 + z));
+template <class Real> Real mean_mobilised(const MaterialOf<Real>& m, Real inverse, Real x) {
+  const Real z = x * inverse;
+  return 1 - m.given.k_p * inverse * (6 + 3 * z) / (6 + z * (6 + z));
 }
 
 template <class Real> Real yield_function(Real q, Real p, Real M_p, Real share) {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 // Bytes of one register of lanes, by default the widest of the target; 0: no lanes, every point alone.
 #ifndef SIMSAND_VECTOR_BYTES
@@ -33,7 +34,10 @@ using std::sqrt;
 /// Whether points are updated side by side, and how many: two registers of them, as the second computes while the
 /// first waits.
 inline constexpr bool use_lanes = SIMSAND_VECTOR_BYTES > 0;
-inline constexpr int registers_of_lanes = 1;
+#ifndef RR
+#define RR 1
+#endif
+inline constexpr int registers_of_lanes = RR;
 template <class T>
 inline constexpr int lane_count = registers_of_lanes*(use_lanes ? SIMSAND_VECTOR_BYTES : 16) / int(sizeof(T));
 
@@ -47,6 +51,12 @@ template <class T, int W> struct Registers {
   typedef T Vector __attribute__((vector_size(bytes)));
   typedef BitsOf<T> Integers __attribute__((vector_size(bytes)));
 };
+
+/// Calls f(0), f(1), ..., f(count - 1), written out: registers then stay registers.
+template <int count, class F> void for_each_register(const F& f) {
+  if constexpr (count > 1) for_each_register<count - 1>(f);
+  f(count - 1);
+}
 
 /// W truths, what a comparison of lanes gives.
 template <class T, int W> struct LaneMask {
@@ -75,7 +85,7 @@ template <class T, int W> struct LaneMask {
   }
   template <class F> static LaneMask map(const F& f) {
     LaneMask r;
-    for (int i = 0; i < R::count; ++i) r.v[i] = f(i);
+    for_each_register<R::count>([&](int i) { r.v[i] = f(i); });
     return r;
   }
 };
@@ -91,11 +101,22 @@ template <class T, int W> struct Lanes {
 
   Lanes() = default;
   Lanes(T scalar) {
-    for (int i = 0; i < R::count; ++i) v[i] = scalar - Vector{};
+    for_each_register<R::count>([&](int i) { v[i] = scalar - Vector{}; });
   }
 
   T operator[](int k) const { return v[k / R::each][k % R::each]; }
   void set(int k, T value) { v[k / R::each][k % R::each] = value; }
+
+  static Lanes read(const T* from) {
+    return map([&](int i) {
+      Vector r;
+      std::memcpy(&r, from + i * R::each, sizeof r);
+      return r;
+    });
+  }
+  void write(T* to) const {
+    for_each_register<R::count>([&](int i) { std::memcpy(to + i * R::each, &v[i], sizeof v[i]); });
+  }
 
   Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
   Lanes& operator*=(const Lanes& b) { return *this = *this * b; }
@@ -147,7 +168,7 @@ template <class T, int W> struct Lanes {
 
   template <class F> static Lanes map(const F& f) {
     Lanes r;
-    for (int i = 0; i < R::count; ++i) r.v[i] = f(i);
+    for_each_register<R::count>([&](int i) { r.v[i] = f(i); });
     return r;
   }
 };

@@ -43,12 +43,17 @@ Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>&
                                   const SymmetricTensor<Real, N>& strain) {
   auto trial = elastic_trial(m, old, strain);
   if (trial.inside) return {elastic_end(m, trial)};
-  turn_deviator(m, trial);
+  auto& in = trial.in;
+  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(trial.s_old, in.q_start));
+  const auto flow = turn_deviator(m, trial);
   Attempt<Real, N> out;
-  const auto end = solve(m, trial.in, candidate(m, trial.in, trial.pressure), out.converged);
+  Slopes<Real> at_trial;
+  set_tangents(m, trial.critical, trial.density, at_trial);
+  const auto first = candidate(m, in, trial.pressure, at_angle(at_trial, in.sin3theta));
+  const auto end = solve(m, in, first, out.converged);
   const bool parted = end.pressure.measure == 0;
   static_cast<Substep<Real, N>&>(out) =
-      parted ? parted_end<Real, N>(m, trial.in, end) : plastic_end(m, trial, end);
+      parted ? parted_end<Real, N>(m, in, end) : plastic_end(m, trial, flow, end);
   out.collapsed = parted && trial.measure > 0;
   return out;
 }

@@ -21,27 +21,79 @@ template <class Real, int N> struct Substep {
 /// The elastic trial of a substep, and where it turns the deviator to.
 template <class Real, int N> struct Trial {
   Increment<Real> in;
-  SymmetricTensor<Real, N> s_old, s_trial; ///< deviators
+  SymmetricTensor<Real, N> s_old, s_trial, e_dev; ///< deviators
   Real measure;                            ///< y, not bounded
   Pressure<Real> pressure;
-  Slopes<Real> slopes; ///< near enough for a first candidate
+  Real critical, density; ///< void ratio e_c, ln (e_c / e)
+  Real tangent, peak;     ///< of the peak friction angle; M_p
   Real q, shear_modulus;
-  Mask<Real> inside;                  ///< the step is elastic
-  SymmetricTensor<Real, N> direction; ///< of the deviator at the end
-  Real q_direction, turn;             ///< invariant of `direction`; 2 (1 - cos psi)
+  Real f;            ///< of (8)
+  Mask<Real> inside; ///< the step is elastic
 };
 
+/// The deviator that plastic flow leads to.
+template <class Real, int N> struct Flow {
+  SymmetricTensor<Real, N> direction;
+  Real q, turn; ///< invariant of `direction`; 2 (1 - cos psi)
+};
+
+// The elastic trial in parts of one long function each: lanes run every part over many points before the next, so that
+// the processor finds work while a logarithm is under way.
+
 template <class Real, int N>
-Increment<Real> increment(const MaterialOf<Real>& m, const Point<Real, N>& old, Real p_old, Real volumetric) {
-  Increment<Real> in;
-  in.start = pressure_of_mean_stress(m, p_old);
-  in.volumetric = volumetric;
+void begin_trial(const MaterialOf<Real>& m, const Point<Real, N>& old, const SymmetricTensor<Real, N>& strain,
+                 Trial<Real, N>& t) {
+  const Real p_old = trace(old.stress) * Real(1. / 3);
+  t.s_old = scale(select(p_old > 0, Real(1), Real(0)), add_mean(old.stress, -p_old)); // none outlives p = 0
+  Increment<Real>& in = t.in;
+  in.volumetric = trace(strain);
+  t.e_dev = add_mean(strain, in.volumetric * Real(-1. / 3));
+  in.start.mean_stress = p_old;
+  in.start.log_ratio = log_ratio_of_mean_stress(m, p_old);
   in.e_start = old.void_ratio;
-  const Real e_middle = void_ratio_after(old.void_ratio, volumetric * Real(0.5));
-  in.e_end = void_ratio_after(e_middle, volumetric * Real(0.5));
-  in.stiffening = m.given.K0 * mean_void_ratio_factor(e_middle, volumetric);
+  const Real e_middle = void_ratio_after(old.void_ratio, in.volumetric * Real(0.5));
+  in.e_end = void_ratio_after(e_middle, in.volumetric * Real(0.5));
+  in.stiffening = m.given.K0 * mean_void_ratio_factor(e_middle, in.volumetric);
   in.eps_d = old.plastic_strain;
-  return in;
+  in.inverse_start = 1 / (m.given.k_p + in.eps_d);
+  in.q_start = deviatoric_stress(t.s_old);
+  in.stress_work = contract(t.s_old, t.e_dev);
+  in.strain_norm = contract(t.e_dev, t.e_dev);
+}
+
+template <class Real, int N> void trial_measure(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  Increment<Real>& in = t.in;
+  in.start = pressure_of_mean_stress(m, in.start.mean_stress, in.start.log_ratio);
+  t.measure = in.start.measure + in.stiffening * in.volumetric;
+  t.pressure.measure = max(t.measure, Real(0));
+}
+
+template <class Real, int N> void trial_log_ratio(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.pressure.log_ratio = log_ratio_of_measure(m, t.pressure.measure);
+}
+
+template <class Real, int N> void trial_pressure(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.pressure = pressure_of_measure(m, t.pressure.measure, t.pressure.log_ratio);
+  t.critical = critical_void_ratio(m, t.pressure.log_ratio);
+  t.shear_modulus = mean_shear_modulus(m, t.in, t.pressure);
+  t.s_trial = add(t.s_old, 2 * t.shear_modulus, t.e_dev);
+  t.q = deviatoric_stress(t.s_trial);
+}
+
+template <class Real, int N> void trial_density(const MaterialOf<Real>&, Trial<Real, N>& t) {
+  t.density = density(t.critical, t.in.e_end);
+  t.in.sin3theta = sin_3theta(t.s_trial, t.q);
+}
+
+template <class Real, int N> void trial_tangent(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+  t.tangent = peak_tangent(m, t.density);
+}
+
+template <class Real, int N> void end_trial(const MaterialOf<Real>&, Trial<Real, N>& t) {
+  t.peak = slope(t.tangent, t.in.sin3theta).value;
+  const Real p = t.pressure.mean_stress;
+  t.f = yield_function(t.q, p, t.peak, t.in.eps_d * t.in.inverse_start); // (8)
+  t.inside = (t.measure > 0) & (t.f <= rounding<Scalar<Real>> * p);
 }
 
 /// The elastic trial and whether it is the answer.
@@ -49,63 +101,36 @@ template <class Real, int N>
 Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& old,
                              const SymmetricTensor<Real, N>& strain) {
   Trial<Real, N> t;
-  const Real p_old = trace(old.stress) / 3;
-  t.s_old = scale(select(p_old > 0, Real(1), Real(0)), deviator(old.stress)); // none outlives p = 0
-  const auto e_dev = deviator(strain);
-  Increment<Real>& in = t.in = increment(m, old, p_old, trace(strain));
-  in.q_start = deviatoric_stress(t.s_old);
-  in.stress_work = contract(t.s_old, e_dev);
-  in.strain_norm = contract(e_dev, e_dev);
-  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(t.s_old, in.q_start));
-
-  t.measure = in.start.measure + in.stiffening * in.volumetric;
-  t.pressure = pressure_of_measure(m, max(t.measure, Real(0)));
-  t.shear_modulus = mean_shear_modulus(m, in, t.pressure);
-  t.s_trial = add(t.s_old, 2 * t.shear_modulus, e_dev);
-  t.q = deviatoric_stress(t.s_trial);
-  in.sin3theta = sin_3theta(t.s_trial, t.q);
-  const Real share = mobilised(m, in.eps_d);
-  // Slopes by series from those of the start, unless their error could hide which side of the yield surface it is.
-  const Real p_ratio = t.pressure.log_ratio - in.start.log_ratio;
-  const Real by_pressure = in.slopes_start.density_change * p_ratio,
-             by_void_ratio = 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
-  const Real denser = by_pressure + by_void_ratio;
-  t.slopes = at_angle(denser_by(m, in.slopes_start, denser), in.sin3theta);
-  Real f = yield_function(t.q, t.pressure.mean_stress, t.slopes.peak, share); // (8)
-  // What the series leave out grows with either part, though they may cancel, and with the curvature of (3).
-  const Real exponent = (m.given.n_p + 1) * (abs(by_pressure) + abs(by_void_ratio));
-  const Real curvature = m.given.zeta * abs(p_ratio);
-  const Real doubt = t.pressure.mean_stress * (2 * exponent * (exponent + 3 * curvature) + Real(1e-9));
-  const Mask<Real> too_far = (curvature > Real(1)) | (abs(denser) > Real(largest_series_change)) |
-                             !(in.slopes_start.density_change < Real(0)); // e_c at its floor, or lambda = 0
-  if (const Mask<Real> close = (!(abs(f) > doubt)) | too_far; !all(!close)) {
-    const auto exact = slopes(m, in.e_end, t.pressure, in.sin3theta);
-    f = select(close, yield_function(t.q, t.pressure.mean_stress, exact.peak, share), f);
-  }
-  t.inside = (t.measure > 0) & (f <= rounding<Scalar<Real>> * t.pressure.mean_stress);
+  begin_trial(m, old, strain, t);
+  trial_measure(m, t);
+  trial_log_ratio(m, t);
+  trial_pressure(m, t);
+  trial_density(m, t);
+  trial_tangent(m, t);
+  end_trial(m, t);
   return t;
 }
 
 /// The flow direction at mid-step (19): where half of the plastic flow is along the deviator that reaches the yield
 /// surface and half along that at the end, the latter is parallel to s_trial - 3 G x / (2 q) s.
-template <class Real, int N> void turn_deviator(const MaterialOf<Real>& m, Trial<Real, N>& t) {
+template <class Real, int N> Flow<Real, N> turn_deviator(const MaterialOf<Real>& m, Trial<Real, N>& t) {
   Increment<Real>& in = t.in;
-  const Real share = mobilised(m, in.eps_d);
-  const Real f_start = yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, share);
-  const Real f_trial = yield_function(t.q, t.pressure.mean_stress, t.slopes.peak, share);
+  const Real f_start =
+      yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, in.eps_d * in.inverse_start);
   const Real tiny_stress = tiny<Scalar<Real>>;
-  const Real elastic_part = min(max(-f_start / max(f_trial - f_start, tiny_stress), Real(0)), Real(1));
+  const Real elastic_part = min(max(-f_start / max(t.f - f_start, tiny_stress), Real(0)), Real(1));
   const auto s_yield = add(scale(1 - elastic_part, t.s_old), elastic_part, t.s_trial);
   const Real q_yield = deviatoric_stress(s_yield);
   const Real x =
-      plastic_multiplier(t.q, t.shear_modulus, t.pressure.mean_stress * t.slopes.peak, m.given.k_p, in.eps_d);
+      plastic_multiplier(t.q, t.shear_modulus, t.pressure.mean_stress * t.peak, m.given.k_p, in.eps_d);
   const Real back = min(Real(1.5) * t.shear_modulus * x / max(q_yield, tiny_stress), Real(1));
-  t.direction = add(t.s_trial, -back, s_yield);
-  t.q_direction = deviatoric_stress(t.direction);
-  in.sin3theta = sin_3theta(t.direction, t.q_direction);
-  t.slopes = at_angle(t.slopes, in.sin3theta);
-  const Real cosine = Real(1.5) * contract(s_yield, t.direction) / max(q_yield * t.q_direction, tiny_stress);
-  t.turn = max(2 * (1 - cosine), Real(0));
+  Flow<Real, N> flow;
+  flow.direction = add(t.s_trial, -back, s_yield);
+  flow.q = deviatoric_stress(flow.direction);
+  in.sin3theta = sin_3theta(flow.direction, flow.q);
+  const Real cosine = Real(1.5) * contract(s_yield, flow.direction) / max(q_yield * flow.q, tiny_stress);
+  flow.turn = max(2 * (1 - cosine), Real(0));
+  return flow;
 }
 
 template <class Real, int N>
@@ -128,22 +153,23 @@ template <class Real> Real plastic_work(const Increment<Real>& in, const Candida
 
 /// The point at the end that `solve` or `newton` found, at positive mean stress.
 template <class Real, int N>
-Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t, const Candidate<Real>& end) {
+Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t, const Flow<Real, N>& flow,
+                             const Candidate<Real>& end) {
   const Increment<Real>& in = t.in;
   const Real p = end.pressure.mean_stress, x = end.multiplier;
   Substep<Real, N> out;
   out.plastic = x > 0;
   out.nonconvex = out.plastic & !end.slopes.convex;
   const Real q = select(out.plastic, p * end.slopes.peak * end.share, end.q_trial); // (8)
-  const Real factor = select(t.q_direction > 0, q / max(t.q_direction, Real(tiny<Scalar<Real>>)), Real(0));
-  out.point = {add_mean(scale(factor, t.direction), p), in.e_end, in.eps_d + x, 0};
+  const Real factor = select(flow.q > 0, q / max(flow.q, Real(tiny<Scalar<Real>>)), Real(0));
+  out.point = {add_mean(scale(factor, flow.direction), p), in.e_end, in.eps_d + x, 0};
   out.dissipation = plastic_work(in, end);
   const Real plastic_share =
       min(3 * end.shear_modulus * x / max(end.q_trial, Real(tiny<Scalar<Real>>)), Real(1));
   const Real slope_change = abs(end.slopes.transformation - in.slopes_start.transformation) +
                             abs(end.slopes.peak - in.slopes_start.peak);
   out.error = mean_stiffness_error(m, in.start, t.pressure) +
-              plastic_share * t.turn * sqrt(t.turn) * Real(0.125) +
+              plastic_share * flow.turn * sqrt(flow.turn) * Real(0.125) +
               in.stiffening * x * m.given.A_d * slope_change /
                   (2 * (1 - m.given.n) * (end.pressure.measure + m.floor_measure));
   return out;
