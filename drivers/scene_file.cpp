@@ -81,10 +81,7 @@ void read_geometry(const TomlTable& table, host::Scene& scene) {
 void read_numerics(const TomlTable& root, host::Scene& scene) {
   auto& numerics = scene.numerics;
   // Clusters of eight list many more neighbours in three dimensions than one particle has: the skin must be thin.
-  if (scene.geometry == host::GeometryKind::three_dimensional) {
-    numerics.skin = 0.2;
-    numerics.wave_speed_tolerance = 0.02;
-  }
+  if (scene.geometry == host::GeometryKind::three_dimensional) numerics.skin = 0.2;
   const auto table = root.table_or_empty("numerics");
   numerics.smoothing_length = table.number("smoothing_length", {1.1, 3}, numerics.smoothing_length);
   numerics.viscosity = table.number("viscosity", {0, 10}, numerics.viscosity);

@@ -73,7 +73,7 @@ void update_all(Particles<Geometry>& p, const Material& material, StressBlocks& 
   for_each_block(p, material, blocks, [&](int first, VumatBlock& b) {
     pack(p, first, blocks.spacing, b);
     for (int k = 0; k < b.points; ++k) ask(p, first + k, k, b);
-    if (corotational) enter_corotational(p, first, 0, b);
+    if (corotational) enter_corotational(p, BlockGradient<Geometry>{}, first, 0, b);
     call_vumat(material, data_check, b);
     const auto particle = [=](int k) { return first + k; };
     if (note_failure(particle, material, data_check, b, blocks.failure_state, failure)) return;

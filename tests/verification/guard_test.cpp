@@ -88,13 +88,14 @@ TEST(Guard, NamesTheParticleThatStrainsTooMuch) {
       tests::column_scene({.geometry = "plane_strain", .spacing = 0.01}, "guard_strain"));
   auto& p = s.particles;
   const double dt = 1e-4, bound = host::largest_strain_step / dt;
-  p.velocity_gradient[2][7] = -0.99 * bound;
-  EXPECT_EQ(error_of([&] { host::check_strain(p, 0.5, dt); }), "no error");
-  p.velocity_gradient[2][7] = -1.01 * bound;
-  EXPECT_TRUE(has(error_of([&] { host::check_strain(p, 0.5, dt); }),
-                  fmt::format("at time 0.5 s: particle {} at (", p.id[7])));
-  p.velocity_gradient[2][7] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(has(error_of([&] { host::check_strain(p, 0.5, dt); }), "strains by nan"));
+  host::BlockGradient<PlaneStrain> gradient{};
+  const auto check = [&](double slope) {
+    gradient.component[2][7] = slope;
+    return error_of([&] { host::check_strain(p, gradient, 3, 12, 0.5, dt); });
+  };
+  EXPECT_EQ(check(-0.99 * bound), "no error");
+  EXPECT_TRUE(has(check(-1.01 * bound), fmt::format("at time 0.5 s: particle {} at (", p.id[10])));
+  EXPECT_TRUE(has(check(std::numeric_limits<double>::quiet_NaN()), "strains by nan"));
 }
 
 TEST(Guard, NamesTheFastestParticleWhereEnergyIsMadeOrLost) {
