@@ -37,6 +37,23 @@ void stress_force(const Lane (&stress)[S], const Lane& inverse_weight, const Pai
   }
 }
 
+/// Adds `count` neighbours. Roots and quotients of some are found before they are used: they take long, but many of
+/// them pass at a time.
+template <bool diffuses, class Geometry, int D>
+void add_pairs(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i, const Records<Geometry>& records,
+               const int* neighbour, int count, PairSums<Geometry, Lane>& sums) {
+  constexpr int ahead = 16;
+  Reach<Lane> reach[ahead];
+  for (int first = 0; first < count; first += ahead) {
+    const int n = std::min(ahead, count - first);
+    for (int k = 0; k < n; ++k) reach[k] = reach_of(kernel, i, records.motion[neighbour[first + k]]);
+    for (int k = 0; k < n; ++k) {
+      const int j = neighbour[first + k];
+      add_pair<diffuses>(reach[k], i, records.motion[j], records.stress[j], sums);
+    }
+  }
+}
+
 } // namespace
 
 template <class Geometry>
@@ -48,10 +65,9 @@ ClusterForces<Geometry> forces_on(const Particles<Geometry>& p, const Kernel<Geo
   const auto i = gather_cluster(records, first, std::min(lanes, p.count - first));
   PairSums<Geometry, Lane> inside, wall;
   const int* neighbour = lists.begin(c);
-  for (int k = 0; k < lists.interior[c]; ++k)
-    add_pair<true>(kernel, i, records.motion[neighbour[k]], records.stress[neighbour[k]], inside);
-  for (int k = lists.interior[c]; k < lists.total[c]; ++k)
-    add_pair<false>(kernel, i, records.motion[neighbour[k]], records.stress[neighbour[k]], wall);
+  add_pairs<true>(kernel, i, records, neighbour, lists.interior[c], inside);
+  add_pairs<false>(kernel, i, records, neighbour + lists.interior[c], lists.total[c] - lists.interior[c],
+                   wall);
   Lane stress[S], by_stress[D], by_walls[D];
   for (int s = 0; s < S; ++s) stress[s] = load(&p.stress[s][first]);
   const Lane inverse_weight = 1.0 / i.weight, inverse_density = 1.0 / load(&p.density[first]);

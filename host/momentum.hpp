@@ -50,18 +50,30 @@ template <int D> constexpr int second_axis(int c) {
   return c < D ? c : (c - D + 1) % D;
 }
 
+/// What is slow to come by of a pair, and of nothing but its distance: W'(r)/r and 1/(r2 + 0.01 h2).
+template <class Real> struct Reach { Real slope, inverse; };
+template <class Geometry, class Real, int D>
+inline Reach<Real> reach_of(const Kernel<D>& kernel, const PairSide<Geometry, Real>& i,
+                            const MotionRecord<D>& m) {
+  Real r2{};
+  for (int a = 0; a < D; ++a) {
+    const Real x = i.position[a] - m.position[a];
+    r2 += x * x;
+  }
+  return {kernel.gradient_factor(square_root(r2)), 1.0 / (r2 + 0.01 * kernel.h * kernel.h)};
+}
+
 /// Adds the neighbour `j` with motion `m`; `diffuses` is false for images behind walls. The part of v_ij . x_ij that the
 /// mean velocity gradient does not explain counts where it is of the same sign as the whole and not larger, so that
 /// the viscosity always dissipates.
 template <bool diffuses, class Geometry, class Real, int D>
-inline void add_pair(const Kernel<D>& kernel, const PairSide<Geometry, Real>& i, const MotionRecord<D>& m,
+inline void add_pair(const Reach<Real>& reach, const PairSide<Geometry, Real>& i, const MotionRecord<D>& m,
                      const StressRecord<Geometry>& j, PairSums<Geometry, Real>& sums) {
   constexpr int rates = D * (D + 1) / 2;
-  Real x[D], g[D], product[rates], r2{};
+  Real x[D], g[D], product[rates];
   for (int a = 0; a < D; ++a) x[a] = i.position[a] - m.position[a];
   for (int c = 0; c < rates; ++c) product[c] = x[first_axis<D>(c)] * x[second_axis<D>(c)];
-  for (int a = 0; a < D; ++a) r2 += product[a];
-  const Real w = kernel.gradient_factor(square_root(r2)) * m.volume;
+  const Real w = reach.slope * m.volume;
   for (int a = 0; a < D; ++a) {
     g[a] = w * x[a];
     sums.slope[a] += g[a];
@@ -80,7 +92,7 @@ inline void add_pair(const Kernel<D>& kernel, const PairSide<Geometry, Real>& i,
       smaller(larger(whole - 0.5 * twice_linear, smaller(whole, Real{})), larger(whole, Real{}));
   Real mean = (i.damping_speed + double(j.damping_speed)) * (i.density + double(j.density));
   if constexpr (Geometry::hoop) mean *= 0.5 * (i.weight + std::abs(weight));
-  const Real pressure = mean * approach / (r2 + 0.01 * kernel.h * kernel.h);
+  const Real pressure = mean * approach * reach.inverse;
   for (int a = 0; a < D; ++a) sums.viscous[a] += pressure * g[a];
 }
 
