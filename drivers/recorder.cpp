@@ -78,7 +78,7 @@ Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
       result(result_path(s.scene), header_of(s), series_quantities) {
   const auto& p = s.particles;
   const std::vector<host::Field> fields{{"mass", "kg", {view(p.mass, p.count)}},
-                                        {"initial_position", "m", views(p.initial_position, p.count)}};
+                                        {"initial_position", "m", views(p.position, p.count)}};
   result.particles(fields, std::span(p.id).first(p.count));
   result.outline_radii(abscissa);
   std::ofstream(std::filesystem::path(s.scene.output_folder) / "scene.toml") << s.scene.resolved;

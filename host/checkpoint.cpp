@@ -10,7 +10,7 @@
 namespace host {
 namespace {
 
-constexpr int checkpoint_version = 1;
+constexpr int checkpoint_version = 2;
 constexpr auto kind = "checkpoint_version"; ///< attribute that only checkpoints have
 constexpr hsize_t values_per_chunk = 65536;
 
@@ -163,7 +163,6 @@ void check_lengths(const std::filesystem::path& path, Simulation<Geometry>& s, s
   bool fits = s.particles.id.size() == padded;
   s.particles.each_persistent([&](const Array& a) { fits = fits && a.size() == padded; });
   const bool listed = s.rebuilds > 0;
-  for (const auto& a : s.listed_position) fits = fits && a.size() == (listed ? padded : 0);
   const std::size_t clusters = listed ? std::size_t(s.particles.clusters()) : 0;
   fits = fits && s.lists.interior.size() == clusters && s.lists.total.size() == clusters &&
          s.lists.entries.size() >= clusters * std::size_t(s.lists.capacity);

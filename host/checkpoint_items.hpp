@@ -28,8 +28,7 @@ template <class Geometry, class F> void each_stored_item(Simulation<Geometry>& s
   item("particle_id", s.particles.id);
   int array = 0;
   s.particles.each_persistent([&](Array& a) { item("particle_" + std::to_string(array++), a); });
-  for (int a = 0; a < Geometry::dimension; ++a)
-    item("listed_position_" + std::to_string(a), s.listed_position[a]);
+  item("moved", s.moved);
 
   item("list_capacity", s.lists.capacity);
   item("list_entries", s.lists.entries);

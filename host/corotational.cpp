@@ -16,13 +16,13 @@ template <class Geometry> Tensor gradient_of(const Particles<Geometry>& p, int i
   return f;
 }
 
-/// Skew part of the velocity gradient of particle i.
-template <class Geometry> Tensor spin_of(const Particles<Geometry>& p, int i) {
+/// Skew part of the velocity gradient of point k.
+template <class Geometry> Tensor spin_of(const BlockGradient<Geometry>& gradient, int k) {
   constexpr int D = Geometry::dimension;
   Tensor w = Tensor::Zero();
   for (int a = 0; a < D; ++a)
     for (int b = 0; b < D; ++b)
-      w(a, b) = 0.5 * (p.velocity_gradient[a * D + b][i] - p.velocity_gradient[b * D + a][i]);
+      w(a, b) = 0.5 * (gradient.component[a * D + b][k] - gradient.component[b * D + a][k]);
   return w;
 }
 
@@ -35,13 +35,14 @@ template <class Geometry> void carry_deformation(Particles<Geometry>& p) {
 }
 
 template <class Geometry>
-void enter_corotational(const Particles<Geometry>& p, int first, double dt, VumatBlock& b) {
+void enter_corotational(const Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first,
+                        double dt, VumatBlock& b) {
   constexpr int shear = Geometry::shear_components;
   const int n = b.points;
   b.rotation_new.resize(n);
   for (int k = 0; k < n; ++k) {
     const Tensor strain = symmetric_at(b.strain_increment, k, n, shear);
-    const auto motion = carried_along(gradient_of(p, first + k), strain + dt * spin_of(p, first + k));
+    const auto motion = carried_along(gradient_of(p, first + k), strain + dt * spin_of(gradient, k));
     const Tensor& r = motion.rotation_old;
     put_symmetric(r.transpose() * symmetric_at(b.stress_old, k, n, shear) * r, k, n, shear, b.stress_old);
     put_symmetric(motion.strain, k, n, shear, b.strain_increment);
@@ -69,13 +70,16 @@ template <class Geometry> void keep_deformation(const VumatBlock& b, int first, 
 
 template void carry_deformation(Particles<PlaneStrain>&);
 template void carry_deformation(Particles<Axisymmetric>&);
-template void enter_corotational(const Particles<PlaneStrain>&, int, double, VumatBlock&);
-template void enter_corotational(const Particles<Axisymmetric>&, int, double, VumatBlock&);
+template void enter_corotational(const Particles<PlaneStrain>&, const BlockGradient<PlaneStrain>&, int,
+                                 double, VumatBlock&);
+template void enter_corotational(const Particles<Axisymmetric>&, const BlockGradient<Axisymmetric>&, int,
+                                 double, VumatBlock&);
 template void keep_deformation(const VumatBlock&, int, Particles<PlaneStrain>&);
 template void keep_deformation(const VumatBlock&, int, Particles<Axisymmetric>&);
 
 template void carry_deformation(Particles<ThreeDimensional>&);
-template void enter_corotational(const Particles<ThreeDimensional>&, int, double, VumatBlock&);
+template void enter_corotational(const Particles<ThreeDimensional>&, const BlockGradient<ThreeDimensional>&,
+                                 int, double, VumatBlock&);
 template void keep_deformation(const VumatBlock&, int, Particles<ThreeDimensional>&);
 
 } // namespace host

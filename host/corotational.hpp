@@ -3,6 +3,7 @@
 // F and their stress in base axes; only the material sees the corotational ones.
 #pragma once
 #include "host/particles.hpp"
+#include "host/stress.hpp"
 #include "host/vumat_block.hpp"
 
 namespace host {
@@ -11,10 +12,11 @@ namespace host {
 template <class Geometry> void carry_deformation(Particles<Geometry>& particles);
 
 /// Turns strain increment and old stress of a block, filled in base axes for particles first, first + 1, ...,
-/// and adds F and U of both ends and the spin, which is that of the velocity gradient over `dt`
+/// and adds F and U of both ends and the spin, which is that of the velocity gradients over `dt`
 /// (0 for a strain that is only tried).
 template <class Geometry>
-void enter_corotational(const Particles<Geometry>& particles, int first, double dt, VumatBlock& block);
+void enter_corotational(const Particles<Geometry>& particles, const BlockGradient<Geometry>& gradient,
+                        int first, double dt, VumatBlock& block);
 
 /// Turns the new stress back.
 void leave_corotational(VumatBlock& block);

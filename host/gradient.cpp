@@ -6,14 +6,7 @@ namespace host {
 
 template <class Geometry> void show_motion(const Particles<Geometry>& p, Records<Geometry>& records) {
 #pragma omp parallel for schedule(static)
-  for (int i = 0; i < p.count; ++i) {
-    auto& record = records.motion[i];
-    for (int a = 0; a < Geometry::dimension; ++a) {
-      record.position[a] = p.position[a][i];
-      record.velocity[a] = p.velocity[a][i];
-    }
-    record.volume = p.mass[i] / (p.density[i] * Geometry::depth * Geometry::weight(p.position[0][i]));
-  }
+  for (int i = 0; i < p.count; ++i) show_motion_of(p, i, records);
 }
 
 template <class Geometry>
@@ -22,24 +15,9 @@ void update_gradient(Particles<Geometry>& p, const Kernel<Geometry::dimension>& 
   constexpr int D = Geometry::dimension;
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < p.clusters(); ++c) {
-    const int first = c * lanes;
-    Lane position[D], velocity[D];
-    for (int a = 0; a < D; ++a) {
-      position[a] = load(&p.position[a][first]);
-      velocity[a] = load(&p.velocity[a][first]);
-    }
-    GradientSums<D, Lane> sums;
-    const int* neighbour = lists.begin(c);
-    for (int k = 0; k < lists.total[c]; ++k)
-      add_neighbour(kernel, position, velocity, records.motion[neighbour[k]], sums);
-    Lane inverse[D * D];
-    invert_moment(sums.moment, inverse);
-    for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b) {
-        Lane corrected{};
-        for (int e = 0; e < D; ++e) corrected += sums.gradient[a * D + e] * inverse[e * D + b];
-        store(&p.velocity_gradient[a * D + b][first], corrected);
-      }
+    Lane gradient[D * D];
+    find_gradient(p, kernel, lists, records, c, gradient);
+    for (int e = 0; e < D * D; ++e) store(&p.velocity_gradient[e][c * lanes], gradient[e]);
   }
 }
 

@@ -95,7 +95,42 @@ template <class Real> inline void invert_moment(const Real (&m)[6], Real (&inver
 /// Fills `records.motion` of the particles (not of the images).
 template <class Geometry> void show_motion(const Particles<Geometry>& particles, Records<Geometry>& records);
 
-/// Velocity gradient of all particles, from `records.motion`.
+/// The same for particle i.
+template <class Geometry>
+inline void show_motion_of(const Particles<Geometry>& p, int i, Records<Geometry>& records) {
+  auto& record = records.motion[i];
+  for (int a = 0; a < Geometry::dimension; ++a) {
+    record.position[a] = p.position[a][i];
+    record.velocity[a] = p.velocity[a][i];
+  }
+  record.volume = p.mass[i] / (p.density[i] * Geometry::depth * Geometry::weight(p.position[0][i]));
+}
+
+/// Velocity gradient of the eight particles of cluster c, 1/s, component a * D + b, from `records.motion`.
+template <class Geometry, int D>
+inline void find_gradient(const Particles<Geometry>& p, const Kernel<D>& kernel, const NeighbourLists& lists,
+                          const Records<Geometry>& records, int c, Lane (&gradient)[D * D]) {
+  const int first = c * lanes;
+  Lane position[D], velocity[D];
+  for (int a = 0; a < D; ++a) {
+    position[a] = load(&p.position[a][first]);
+    velocity[a] = load(&p.velocity[a][first]);
+  }
+  GradientSums<D, Lane> sums;
+  const int* neighbour = lists.begin(c);
+  for (int k = 0; k < lists.total[c]; ++k)
+    add_neighbour(kernel, position, velocity, records.motion[neighbour[k]], sums);
+  Lane inverse[D * D];
+  invert_moment(sums.moment, inverse);
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < D; ++b) {
+      Lane corrected{};
+      for (int e = 0; e < D; ++e) corrected += sums.gradient[a * D + e] * inverse[e * D + b];
+      gradient[a * D + b] = corrected;
+    }
+}
+
+/// Velocity gradient of all particles.
 template <class Geometry>
 void update_gradient(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
                      const NeighbourLists& lists, const Records<Geometry>& records);

@@ -5,16 +5,15 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <stdexcept>
 
 namespace host {
 namespace {
 
-/// Largest component of the velocity gradient, 1/s; not a number if any of them is none.
-template <class Geometry> double steepest(const Particles<Geometry>& p, int i) {
+/// Largest component of the velocity gradient of point k, 1/s; not a number if any of them is none.
+template <class Geometry> double steepest(const BlockGradient<Geometry>& gradient, int k) {
   double largest = 0;
-  for (const auto& component : p.velocity_gradient) {
-    const double slope = std::abs(component[i]);
+  for (const auto& component : gradient.component) {
+    const double slope = std::abs(component[k]);
     if (std::isnan(slope)) return slope;
     largest = std::max(largest, slope);
   }
@@ -38,13 +37,19 @@ constexpr auto advice = "a smaller numerics.step_factor may help";
 
 } // namespace
 
-template <class Geometry> void check_strain(const Particles<Geometry>& p, double time, double dt) {
-  for (int i = 0; i < p.count; ++i)
-    if (!(steepest(p, i) * dt <= largest_strain_step))
-      throw std::runtime_error(
-          fmt::format("the motion became unstable at time {:.9g} s: {} strains by {:.3g} in "
-                      "one step of {:.3g} s (at most {} is sound); {}",
-                      time, named(p, i), steepest(p, i) * dt, dt, largest_strain_step, advice));
+template <class Geometry>
+void check_strain(const Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, int count,
+                  double time, double dt) {
+  const double most = largest_strain_step / dt;
+  bool sound = true;
+  for (const auto& component : gradient.component)
+    for (int k = 0; k < count; ++k) sound &= std::abs(component[k]) <= most; // false for what is no number
+  if (sound) return;
+  for (int k = 0; k < count; ++k)
+    if (const double strain = steepest(gradient, k) * dt; !(strain <= largest_strain_step))
+      throw UnsoundMotion(fmt::format("the motion became unstable at time {:.9g} s: {} strains by {:.3g} in "
+                                      "one step of {:.3g} s (at most {} is sound); {}",
+                                      time, named(p, first + k), strain, dt, largest_strain_step, advice));
 }
 
 template <class Geometry>
@@ -64,9 +69,12 @@ void check_energy(const Particles<Geometry>& p, double time, double made, double
 template void check_energy(const Particles<PlaneStrain>&, double, double, double);
 template void check_energy(const Particles<Axisymmetric>&, double, double, double);
 
-template void check_strain(const Particles<PlaneStrain>&, double, double);
-template void check_strain(const Particles<Axisymmetric>&, double, double);
+template void check_strain(const Particles<PlaneStrain>&, const BlockGradient<PlaneStrain>&, int, int, double,
+                           double);
+template void check_strain(const Particles<Axisymmetric>&, const BlockGradient<Axisymmetric>&, int, int,
+                           double, double);
 template void check_energy(const Particles<ThreeDimensional>&, double, double, double);
-template void check_strain(const Particles<ThreeDimensional>&, double, double);
+template void check_strain(const Particles<ThreeDimensional>&, const BlockGradient<ThreeDimensional>&, int,
+                           int, double, double);
 
 } // namespace host

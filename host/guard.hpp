@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounds that a sound step keeps by far. Beyond them the motion is numbers, not sand, and the run ends.
 #pragma once
-#include "host/particles.hpp"
+#include "host/stress.hpp"
+#include <stdexcept>
 
 namespace host {
 
@@ -12,9 +13,15 @@ inline constexpr double largest_strain_step = 0.05;
 /// energy balance; over the initial potential energy. Collapses stay at 0 and below 0.0006.
 inline constexpr double largest_made_energy = 0.02, largest_unclosed_energy = 0.005;
 
-/// Throws std::runtime_error naming particle, place, time and strain if a particle deforms or turns by more in
-/// this step, or by what is not a number.
-template <class Geometry> void check_strain(const Particles<Geometry>& particles, double time, double dt);
+struct UnsoundMotion : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws UnsoundMotion naming particle, place, time and strain if a particle deforms or turns by more in
+/// this step, or by what is not a number: of the `count` particles first, first + 1, ...
+template <class Geometry>
+void check_strain(const Particles<Geometry>& particles, const BlockGradient<Geometry>& gradient, int first,
+                  int count, double time, double dt);
 
 /// Throws std::runtime_error naming the fastest particle and the time if either energy, over the initial potential
 /// energy, is larger than accepted or not a number.

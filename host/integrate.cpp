@@ -80,43 +80,63 @@ void Work::add(const Work& other) {
   guarded += other.guarded;
 }
 
+void ClusterMotion::add(const ClusterMotion& other) {
+  work.add(other.work);
+  square = std::max(square, other.square);
+}
+
+template <class Geometry>
+ClusterMotion move_cluster(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors,
+                           double reach, double dt_before, double dt, const ClusterForces<Geometry>& by,
+                           int c) {
+  constexpr int D = Geometry::dimension, up = D - 1;
+  const double kick = 0.5 * (dt_before + dt);
+  ClusterMotion motion;
+  Work& work = motion.work;
+  for (int l = 0, i = c * lanes; l < lanes && i < p.count; ++l, ++i) {
+    double from[D], x[D], before[D], v[D], square = 0;
+    std::array<double, up> by_friction{};
+    for (int a = 0; a < D; ++a) {
+      from[a] = p.position[a][i];
+      before[a] = p.velocity[a][i];
+      v[a] = before[a] +
+             kick * (by.stress[a][l] + by.viscous[a][l] + by.wall[a][l] - (a == up ? scene.gravity : 0));
+    }
+    // Friction goes with the push of the floor, over its reach; without slip the lowest layer stands.
+    if (from[up] < (scene.floor.no_slip ? scene.spacing : reach))
+      by_friction = rub(scene.floor, kick * by.wall[up][l], v);
+    for (int a = 0; a < D; ++a) {
+      const double impulse = p.mass[i] * 0.5 * (before[a] + v[a]);
+      work.stress += impulse * kick * by.stress[a][l];
+      work.viscosity += impulse * kick * by.viscous[a][l];
+      work.wall += impulse * kick * by.wall[a][l];
+      if (a < up) work.friction += impulse * by_friction[a];
+      x[a] = from[a] + dt * v[a];
+    }
+    touch_walls(scene, mirrors, p.mass[i], from, x, v, work);
+    for (int a = 0; a < D; ++a) {
+      square += (x[a] - from[a]) * (x[a] - from[a]);
+      p.velocity[a][i] = v[a];
+      p.position[a][i] = x[a];
+    }
+    motion.square = std::max(motion.square, square);
+  }
+  return motion;
+}
+
 template <class Geometry>
 Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors, double reach,
                double dt_before, double dt) {
-  constexpr int D = Geometry::dimension, up = D - 1;
-  const double kick = 0.5 * (dt_before + dt);
-  std::vector<Work> of_cluster(p.clusters()); // summed in order below: the same for any number of threads
-#pragma omp parallel for schedule(static)
-  for (int c = 0; c < p.clusters(); ++c)
-    for (int i = c * lanes; i < std::min((c + 1) * lanes, p.count); ++i) {
-      Work& work = of_cluster[c];
-      double from[D], x[D], before[D], v[D];
-      std::array<double, up> by_friction{};
-      for (int a = 0; a < D; ++a) {
-        from[a] = p.position[a][i];
-        before[a] = p.velocity[a][i];
-        v[a] = before[a] + kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
-                                   p.wall_acceleration[a][i] - (a == up ? scene.gravity : 0));
-      }
-      // Friction goes with the push of the floor, over its reach; without slip the lowest layer stands.
-      if (from[up] < (scene.floor.no_slip ? scene.spacing : reach))
-        by_friction = rub(scene.floor, kick * p.wall_acceleration[up][i], v);
-      for (int a = 0; a < D; ++a) {
-        const double impulse = p.mass[i] * 0.5 * (before[a] + v[a]);
-        work.stress += impulse * kick * p.stress_acceleration[a][i];
-        work.viscosity += impulse * kick * p.viscous_acceleration[a][i];
-        work.wall += impulse * kick * p.wall_acceleration[a][i];
-        if (a < up) work.friction += impulse * by_friction[a];
-        x[a] = from[a] + dt * v[a];
-      }
-      touch_walls(scene, mirrors, p.mass[i], from, x, v, work);
-      for (int a = 0; a < D; ++a) {
-        p.velocity[a][i] = v[a];
-        p.position[a][i] = x[a];
-      }
-    }
   Work all;
-  for (const Work& work : of_cluster) all.add(work);
+  for (int c = 0; c < p.clusters(); ++c) {
+    ClusterForces<Geometry> by{};
+    for (int a = 0; a < Geometry::dimension; ++a) {
+      by.stress[a] = load(&p.stress_acceleration[a][c * lanes]);
+      by.viscous[a] = load(&p.viscous_acceleration[a][c * lanes]);
+      by.wall[a] = load(&p.wall_acceleration[a][c * lanes]);
+    }
+    all.add(move_cluster(p, scene, mirrors, reach, dt_before, dt, by, c).work);
+  }
   return all;
 }
 
@@ -136,6 +156,12 @@ template <class Geometry> double potential_energy(const Particles<Geometry>& p, 
   return sum;
 }
 
+template ClusterMotion move_cluster(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double,
+                                    double, double, const ClusterForces<PlaneStrain>&, int);
+template ClusterMotion move_cluster(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&,
+                                    double, double, double, const ClusterForces<Axisymmetric>&, int);
+template ClusterMotion move_cluster(Particles<ThreeDimensional>&, const Scene&, const std::vector<Mirror>&,
+                                    double, double, double, const ClusterForces<ThreeDimensional>&, int);
 template Work integrate(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double, double,
                         double);
 template Work integrate(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&, double, double,

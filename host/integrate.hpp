@@ -3,6 +3,7 @@
 // kind of force, so that the energy of a run can be closed.
 #pragma once
 #include "host/mirrors.hpp"
+#include "host/momentum.hpp"
 
 namespace host {
 
@@ -24,11 +25,24 @@ inline constexpr double contact_gap = 0.4;
 /// The same for the axis, which only keeps 1/r finite.
 inline constexpr double axis_gap = 0.05;
 
+/// Work on particles in one step, and the square of their largest displacement, m2.
+struct ClusterMotion {
+  Work work;
+  double square = 0;
+  void add(const ClusterMotion& other);
+};
+
 /// v += a (dt_before + dt)/2, x += v dt: velocities live at half steps (dt_before is 0 in the first one), so
 /// free fall is exact for any sequence of steps. Coulomb friction opposes the tangential velocity of a particle on the floor by
 /// at most `floor.friction` times what the floor pushes it up with. A particle that would come nearer to
 /// a wall than the contact gap stays there, loses its speed towards it, and on the floor as much
-/// tangential speed as friction takes for that impulse. Returns the work of the step.
+/// tangential speed as friction takes for that impulse. Of cluster c, under the forces `by`.
+template <class Geometry>
+ClusterMotion move_cluster(Particles<Geometry>& particles, const Scene& scene,
+                           const std::vector<Mirror>& mirrors, double reach, double dt_before, double dt,
+                           const ClusterForces<Geometry>& by, int c);
+
+/// The same for all particles, under the accelerations that they hold. Returns the work of the step.
 template <class Geometry>
 Work integrate(Particles<Geometry>& particles, const Scene& scene, const std::vector<Mirror>& mirrors,
                double reach, double dt_before, double dt);

@@ -22,6 +22,11 @@ inline void store(double* to, const Lane& a) {
   std::memcpy(to, &a, sizeof a);
 }
 
+/// Stores the first `count`.
+inline void store(double* to, const Lane& a, int count) {
+  std::memcpy(to, &a, count * sizeof(double));
+}
+
 inline Lane square_root(const Lane& a) {
   Lane r;
   for (int k = 0; k < lanes; ++k) r[k] = std::sqrt(a[k]);
@@ -50,6 +55,26 @@ inline double sum(const Lane& a) {
 }
 inline double sum(double a) {
   return a;
+}
+
+inline double largest(const Lane& a) {
+  double most = a[0];
+  for (int l = 1; l < lanes; ++l) most = most < a[l] ? a[l] : most;
+  return most;
+}
+
+inline double largest(double a) {
+  return a;
+}
+
+/// f(x) of each.
+template <class F> inline Lane each(const Lane& a, F&& f) {
+  Lane r{};
+  for (int l = 0; l < lanes; ++l) r[l] = f(a[l]);
+  return r;
+}
+template <class F> inline double each(double a, F&& f) {
+  return f(a);
 }
 
 } // namespace host

@@ -85,8 +85,8 @@ template <class Geometry> Particles<Geometry> make_column(const Scene& scene) {
       const double y = (row + 0.5) * dy;
       const double vertical = -scene.bulk_density * scene.gravity * (scene.column.height - y);
       p.id[i] = i;
-      for (int a = 0; a < up; ++a) p.position[a][i] = p.initial_position[a][i] = horizontal[a];
-      p.position[up][i] = p.initial_position[up][i] = y;
+      for (int a = 0; a < up; ++a) p.position[a][i] = horizontal[a];
+      p.position[up][i] = y;
       p.density[i] = scene.bulk_density;
       p.mass[i] = scene.bulk_density * area * dy * Geometry::depth * Geometry::weight(horizontal[0]);
       for (int c = 0; c < 3; ++c) p.stress[c][i] = (c == up ? 1 : scene.earth_pressure_ratio) * vertical;

@@ -4,6 +4,7 @@
 #pragma once
 #include "host/first_error.hpp"
 #include "host/geometry.hpp"
+#include "host/guard.hpp"
 #include "host/reproducer.hpp"
 #include "host/stress.hpp"
 #include <fmt/format.h>
@@ -34,13 +35,28 @@ void pack_point(const Particles<Geometry>& p, int i, int k, double spacing, Vuma
 /// Inputs of a call for particles first, first + 1, ...
 template <class Geometry> void pack(const Particles<Geometry>& p, int first, double spacing, VumatBlock& b) {
   const int n = b.points;
-  for (int k = 0; k < n; ++k) pack_point(p, first + k, k, spacing, b);
+  for (int a = 0; a < Geometry::dimension; ++a) std::copy_n(&p.position[a][first], n, &b.coordinates[a * n]);
+  std::fill_n(b.char_length.begin(), n, spacing);
+  std::copy_n(&p.density[first], n, b.density.begin());
+  std::copy_n(&p.internal_energy[first], n, b.internal_energy_old.begin());
+  std::copy_n(&p.inelastic_energy[first], n, b.inelastic_energy_old.begin());
   for (int s = 0; s < b.state_variables; ++s) std::copy_n(&p.state[s][first], n, &b.state_old[s * n]);
 }
 
 /// Index in the block of the first point whose answer is not finite or whose material reports a failure; -1 if
 /// there is none.
 inline int first_failure(const VumatBlock& b, int failure_state) {
+  const auto whole = [](const GuardedArray& a) { // an exponent of ones: infinite or no number
+    constexpr std::uint64_t ones = 0x7ff0000000000000;
+    bool finite = true;
+    for (const double x : a) finite &= (std::bit_cast<std::uint64_t>(x) & ones) != ones;
+    return finite;
+  };
+  bool sound = whole(b.stress_new) && whole(b.state_new) && whole(b.internal_energy_new) &&
+               whole(b.inelastic_energy_new);
+  if (failure_state >= 0)
+    for (int k = 0; k < b.points; ++k) sound &= !(b.state_new[failure_state * b.points + k] < 0);
+  if (sound) return -1;
   for (int k = 0; k < b.points; ++k) {
     double all = 0; // not finite if any of them is not
     for (std::size_t c = k; c < b.stress_new.size(); c += b.points) all += b.stress_new[c] * 0;
@@ -77,24 +93,27 @@ bool note_failure(ParticleOf&& particle, const Material& material, const Increme
 }
 
 /// Calls `f(first, block)` for all particles, each thread with a block of its own; in order where the material
-/// wants one call at a time. An exception comes out with the first particle of its block.
+/// wants one call at a time. Threads take blocks in turn, so that flowing and resting parts fall to all alike. An
+/// exception comes out with the first particle of its block.
 template <class Geometry, class F>
 void for_each_block(const Particles<Geometry>& p, const Material& material, StressBlocks& blocks, F&& f) {
-  const int full = p.count / StressBlocks::points;
+  const int full = p.count / StressBlocks::points, all = full + int(blocks.tail.size());
   FirstError error;
   const auto guarded = [&](int first, VumatBlock& block) {
     error.guarded(first, [&] {
       try {
         f(first, block);
+      } catch (const UnsoundMotion&) {
+        throw;
       } catch (const std::runtime_error& what) {
         throw std::runtime_error(
             fmt::format("{}, in the block of {} from particle {}", what.what(), block.points, p.id[first]));
       }
     });
   };
-#pragma omp parallel for schedule(static) if (!material.serial)
-  for (int b = 0; b < full; ++b) guarded(b * StressBlocks::points, blocks.full[omp_get_thread_num()]);
-  if (!blocks.tail.empty()) guarded(full * StressBlocks::points, blocks.tail.front());
+#pragma omp parallel for schedule(static, 1) if (!material.serial)
+  for (int b = 0; b < all; ++b)
+    guarded(b * StressBlocks::points, b < full ? blocks.full[omp_get_thread_num()] : blocks.tail.front());
   error.rethrow();
 }
 

@@ -40,7 +40,7 @@ template <int D> void reflect_velocity(const Mirror& m, const std::array<double,
 
 /// H s H of a symmetric tensor in the order of the VUMAT whose shear components are `shear` times the tensor's,
 /// H the reflection in the plane of normal `n`.
-void reflect_symmetric(const std::array<double, 3>& n, double shear, double (&s)[6]) {
+template <class Real> void reflect_symmetric(const std::array<double, 3>& n, double shear, Real (&s)[6]) {
   double t[3] = {}, normal = 0; // s n, n s n
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) t[a] += (a == b ? 1 : 1 / shear) * s[component<3>(a, b)] * n[b];
@@ -48,18 +48,29 @@ void reflect_symmetric(const std::array<double, 3>& n, double shear, double (&s)
   for (int a = 0; a < 3; ++a)
     for (int b = a; b < 3; ++b)
       s[component<3>(a, b)] +=
-          (a == b ? 1 : shear) * (4 * normal * n[a] * n[b] - 2 * (n[a] * t[b] + t[a] * n[b]));
+          Real((a == b ? 1 : shear) * (4 * normal * n[a] * n[b] - 2 * (n[a] * t[b] + t[a] * n[b])));
+}
+
+/// The same in two dimensions, where mirrors stand along the axes: shear changes its sign.
+template <class Geometry>
+void reflect_symmetric(const std::array<double, 2>&, StressRecord<Geometry>& record) {
+  record.stress[3] = -record.stress[3];
+  record.strain_rate[2] = -record.strain_rate[2];
+}
+void reflect_symmetric(const std::array<double, 3>& n, StressRecord<ThreeDimensional>& record) {
+  reflect_symmetric(n, 1, record.stress);
+  reflect_symmetric(n, 2, record.strain_rate);
 }
 
 /// Stress and velocity gradient behind a mirror. Reflection turns the sign of shear on a plane; friction is a force
 /// of its own. The image in the floor lies deeper by twice the particle's height: the weight is carried on, or the
 /// gradient of the vertical stress would vanish there.
-void reflect_tensors(const Mirror& mirror, const std::array<double, 3>& n, double depth,
-                     StressRecord<ThreeDimensional>& record) {
-  reflect_symmetric(n, 1, record.flux);
-  reflect_symmetric(n, 2, record.strain_rate);
-  for (int a = 0; a < 3; ++a)
-    record.flux[a] -= mirror.weight_gradient * 2 * depth * (a == 2 ? 1 : mirror.horizontal_ratio);
+template <class Geometry, std::size_t D>
+void reflect_tensors(const Mirror& mirror, const std::array<double, D>& n, double depth,
+                     StressRecord<Geometry>& record) {
+  reflect_symmetric(n, record);
+  for (std::size_t a = 0; a < D; ++a)
+    record.stress[a] -= mirror.weight_gradient * 2 * depth * (a == D - 1 ? 1 : mirror.horizontal_ratio);
 }
 
 Mirror plane_of_symmetry(int axis) {
@@ -144,36 +155,14 @@ void reflect_motion(const Images& images, const std::vector<Mirror>& mirrors, Re
 
 template <class Geometry>
 void reflect_stress(const Images& images, const std::vector<Mirror>& mirrors, Records<Geometry>& records) {
-  constexpr int D = Geometry::dimension;
   int at = images.first;
   for (const Image& image : images.list) {
     const Mirror& mirror = mirrors[image.mirror];
+    const auto& position = records.motion[image.source].position;
     auto& record = records.stress[at++];
     record = records.stress[image.source];
-    if (!acts_on(mirror, record.position)) record.volume = 0;
-    const double depth = depth_behind(mirror, record.position);
-    const auto n = normal_at<D>(mirror, record.position);
-    record.volume *= reflect_position(mirror, record.position);
-    reflect_velocity<D>(mirror, n, record.velocity);
-    if constexpr (D == 3)
-      reflect_tensors(mirror, n, depth, record);
-    else {
-      const double weight = Geometry::weight(record.position[0]);
-      const double ratio = weight / record.weight;
-      record.weight = weight;
-      for (int a = 0; a < D; ++a)
-        for (int b = 0; b < D; ++b) {
-          const bool turns = (a == mirror.axis) != (b == mirror.axis);
-          if (turns) record.gradient[a * D + b] *= -1;
-          if (a > b) continue;
-          const int c = component<D>(a, b);
-          record.flux[c] *= turns ? -ratio : ratio;
-          if (turns) record.reduced_stress[c] *= -1;
-        }
-      for (int a = 0; a < D; ++a)
-        record.flux[a] -=
-            weight * mirror.weight_gradient * 2 * depth * (a == D - 1 ? 1 : mirror.horizontal_ratio);
-    }
+    reflect_tensors(mirror, normal_at<Geometry::dimension>(mirror, position), depth_behind(mirror, position),
+                    record);
   }
 }
 

@@ -7,6 +7,13 @@
 // left of a velocity difference once the velocity gradients of both sides are taken off (Frontiere, Raskin
 // and Owen 2017, J. Comput. Phys. 332:160): it damps noise between particles and leaves a resolved flow,
 // compression and shear alike, undissipated.
+//
+// The sums are taken apart into fewer operations: with g = V_j grad W_ij = w x,
+//   sum (w_i sigma_i + w_j sigma_j) g = w_i sigma_i sum g + sum w_j sigma_j g,
+//   sum (s_i - s_j) w = s_i sum w - sum s_j w,
+// s the reduced stress, which is the stress less its geostatic part, linear in height, so that its share is a multiple
+// of the vertical sum g. Stress diffuses by twice the diffusivity times that (Feng et al. 2021, Comput. Geotech.
+// 140:104356).
 #pragma once
 #include "host/geometry.hpp"
 #include "host/kernel.hpp"
@@ -15,98 +22,96 @@
 
 namespace host {
 
-/// A particle (or eight) as the pair functions see it; the same quantities as a StressRecord.
+/// A particle (or eight) as the pair function sees it.
 template <class Geometry, class Real> struct PairSide {
-  static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
-  Real position[D], velocity[D], weight, density, damping_speed, flux[S], gradient[D * D], reduced_stress[S];
+  static constexpr int D = Geometry::dimension;
+  Real position[D], velocity[D], weight, density, damping_speed, strain_rate[D * (D + 1) / 2];
 };
 
-/// Distance vector and V_j W'(r)/r of a pair.
-template <int D, class Real> struct Pair { Real x[D], r2{}, w; };
+/// Sums over the neighbours of a particle (or of eight), with g = V_j grad W_ij = w x.
+template <class Geometry, class Real> struct PairSums {
+  static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+  Real weight{};          ///< w
+  Real slope[D]{};        ///< g
+  Real stress_force[D]{}; ///< w_j sigma_j g
+  Real stress[S]{};       ///< sigma_j w
+  Real viscous[D]{};
+};
 
-template <class Geometry, class Real>
-inline Pair<Geometry::dimension, Real> make_pair(const Kernel<Geometry::dimension>& kernel,
-                                                 const PairSide<Geometry, Real>& i,
-                                                 const StressRecord<Geometry>& j) {
-  Pair<Geometry::dimension, Real> pair;
-  for (int a = 0; a < Geometry::dimension; ++a) {
-    pair.x[a] = i.position[a] - j.position[a];
-    pair.r2 += pair.x[a] * pair.x[a];
-  }
-  pair.w = kernel.gradient_factor(square_root(pair.r2)) * j.volume;
-  return pair;
+/// Additions and multiplications of one pair; square root and division count as one.
+template <class Geometry>
+constexpr double pair_flops = Geometry::dimension == 3 ? 101 : (Geometry::hoop ? 65 : 61);
+
+/// Axes of component c of the strain rate.
+template <int D> constexpr int first_axis(int c) {
+  return c < D ? c : (c - D) % D;
+}
+template <int D> constexpr int second_axis(int c) {
+  return c < D ? c : (c - D + 1) % D;
 }
 
-/// Adds (w_i sigma_i + w_j sigma_j) V_j grad W.
+/// What is slow to come by of a pair, and of nothing but its distance: W'(r)/r and 1/(r2 + 0.01 h2).
+template <class Real> struct Reach { Real slope, inverse; };
 template <class Geometry, class Real, int D>
-inline void add_stress_force(const Pair<D, Real>& pair, const PairSide<Geometry, Real>& i,
-                             const StressRecord<Geometry>& j, Real (&force)[D]) {
+inline Reach<Real> reach_of(const Kernel<D>& kernel, const PairSide<Geometry, Real>& i,
+                            const MotionRecord<D>& m) {
+  Real r2{};
   for (int a = 0; a < D; ++a) {
-    Real sum{};
-    for (int b = 0; b < D; ++b) {
-      const int c = component<D>(a, b);
-      sum += (i.flux[c] + j.flux[c]) * pair.x[b];
-    }
-    force[a] += sum * pair.w;
+    const Real x = i.position[a] - m.position[a];
+    r2 += x * x;
   }
+  return {kernel.gradient_factor(square_root(r2)), 1.0 / (r2 + 0.01 * kernel.h * kernel.h)};
 }
 
-/// The part of v_ij . x_ij that the mean velocity gradient does not explain: of the same sign as the whole
-/// and not larger, else 0, so that the viscosity always dissipates.
-template <class Geometry, class Real, int D>
-inline Real unresolved_approach(const Pair<D, Real>& pair, const PairSide<Geometry, Real>& i,
-                                const StressRecord<Geometry>& j) {
+/// Adds the neighbour `j` with motion `m`; `diffuses` is false for images behind walls. The part of v_ij . x_ij that the
+/// mean velocity gradient does not explain counts where it is of the same sign as the whole and not larger, so that
+/// the viscosity always dissipates.
+template <bool diffuses, class Geometry, class Real, int D>
+inline void add_pair(const Reach<Real>& reach, const PairSide<Geometry, Real>& i, const MotionRecord<D>& m,
+                     const StressRecord<Geometry>& j, PairSums<Geometry, Real>& sums) {
+  constexpr int rates = D * (D + 1) / 2;
+  Real x[D], g[D], product[rates];
+  for (int a = 0; a < D; ++a) x[a] = i.position[a] - m.position[a];
+  for (int c = 0; c < rates; ++c) product[c] = x[first_axis<D>(c)] * x[second_axis<D>(c)];
+  const Real w = reach.slope * m.volume;
+  for (int a = 0; a < D; ++a) {
+    g[a] = w * x[a];
+    sums.slope[a] += g[a];
+  }
+  const double weight = Geometry::weight(m.position[0]);
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < D; ++b) sums.stress_force[a] += (weight * j.stress[component<D>(a, b)]) * g[b];
+  if constexpr (diffuses) {
+    sums.weight += w;
+    for (int s = 0; s < Geometry::stress_components; ++s) sums.stress[s] += w * j.stress[s];
+  }
   Real whole{}, twice_linear{};
-  for (int a = 0; a < D; ++a) {
-    whole += (i.velocity[a] - j.velocity[a]) * pair.x[a];
-    for (int b = 0; b < D; ++b)
-      twice_linear += (i.gradient[a * D + b] + j.gradient[a * D + b]) * pair.x[a] * pair.x[b];
-  }
-  const Real rest = whole - 0.5 * twice_linear;
-  return smaller(larger(rest, Real{}), larger(whole, Real{})) +
-         larger(smaller(rest, Real{}), smaller(whole, Real{}));
+  for (int a = 0; a < D; ++a) whole += (i.velocity[a] - m.velocity[a]) * x[a];
+  for (int c = 0; c < rates; ++c) twice_linear += (i.strain_rate[c] + double(j.strain_rate[c])) * product[c];
+  const Real approach =
+      smaller(larger(whole - 0.5 * twice_linear, smaller(whole, Real{})), larger(whole, Real{}));
+  Real mean = (i.damping_speed + double(j.damping_speed)) * (i.density + double(j.density));
+  if constexpr (Geometry::hoop) mean *= 0.5 * (i.weight + std::abs(weight));
+  const Real pressure = mean * approach * reach.inverse;
+  for (int a = 0; a < D; ++a) sums.viscous[a] += pressure * g[a];
 }
 
-/// Adds the viscous pressure s h rho (v . x)/(r2 + 0.01 h2), s the mean damping speed and v . x without its
-/// resolved part.
-template <class Geometry, class Real, int D>
-inline void add_viscous_force(const Kernel<D>& kernel, const Pair<D, Real>& pair,
-                              const PairSide<Geometry, Real>& i, const StressRecord<Geometry>& j,
-                              Real (&force)[D]) {
-  const Real mean =
-      (i.damping_speed + j.damping_speed) * (i.density + j.density) * (i.weight + std::abs(j.weight));
-  const Real pressure =
-      (0.125 * kernel.h) * mean * unresolved_approach(pair, i, j) / (pair.r2 + 0.01 * kernel.h * kernel.h);
-  for (int a = 0; a < D; ++a) force[a] += pressure * pair.w * pair.x[a];
-}
+/// What acts on the particles of one cluster: accelerations, m/s2, and the rate of stress diffusion, Pa/s.
+template <class Geometry> struct ClusterForces {
+  static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+  std::array<Lane, D> stress, viscous, wall;
+  std::array<Lane, S> diffusion;
+};
 
-/// Adds V_j (s_i - s_j) W'/r, with s the reduced stress: times twice the diffusivity, the rate of stress
-/// diffusion (Feng et al. 2021, Comput. Geotech. 140:104356).
-template <class Geometry, class Real, int D, int S>
-inline void add_stress_diffusion(const Pair<D, Real>& pair, const PairSide<Geometry, Real>& i,
-                                 const StressRecord<Geometry>& j, Real (&rate)[S]) {
-  for (int s = 0; s < S; ++s) rate[s] += (i.reduced_stress[s] - j.reduced_stress[s]) * pair.w;
-}
+/// Of cluster c, from both records: by stress, by viscosity and by walls. Gravity and friction are not in them.
+template <class Geometry>
+ClusterForces<Geometry> forces_on(const Particles<Geometry>& particles,
+                                  const Kernel<Geometry::dimension>& kernel, const NeighbourLists& lists,
+                                  const Records<Geometry>& records, const Scene& scene, int c);
 
-/// Diffusivity of stress, m2/s: delta h2 |grad v|, so that noise is smoothed as it arises, by strain, and a
-/// deposit at rest keeps its stress; at most 0.1 h c, where it would limit the step.
-template <class Real, int N>
-inline Real stress_diffusivity(double delta, double h, const Real& wave_speed, const Real (&gradient)[N]) {
-  Real square{};
-  for (const Real& g : gradient) square += g * g;
-  return smaller(Real(delta * h * h * square_root(square)), Real(0.1 * h * wave_speed));
-}
-
-/// Accelerations of all particles by stress, by viscosity and by walls, and the rate of stress diffusion,
-/// from `records.stress`. Gravity and friction are not in them.
+/// The same of all particles, kept.
 template <class Geometry>
 void update_acceleration(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
                          const NeighbourLists& lists, const Records<Geometry>& records, const Scene& scene);
-
-/// The same in three dimensions, by host/momentum_solid.hpp.
-template <>
-void update_acceleration(Particles<ThreeDimensional>& particles, const Kernel<3>& kernel,
-                         const NeighbourLists& lists, const Records<ThreeDimensional>& records,
-                         const Scene& scene);
 
 } // namespace host

@@ -206,22 +206,6 @@ void find_neighbours(const Particles<Geometry>& p, const Images& images, const R
   }
 }
 
-template <class Geometry>
-double largest_displacement(const Particles<Geometry>& p,
-                            const std::array<Array, Geometry::dimension>& reference) {
-  double largest = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest)
-  for (int i = 0; i < p.count; ++i) {
-    double square = 0;
-    for (int a = 0; a < Geometry::dimension; ++a) {
-      const double d = p.position[a][i] - reference[a][i];
-      square += d * d;
-    }
-    largest = std::max(largest, square);
-  }
-  return std::sqrt(largest);
-}
-
 template void sort_particles(Particles<PlaneStrain>&, double);
 template void sort_particles(Particles<Axisymmetric>&, double);
 template void sort_particles(Particles<ThreeDimensional>&, double);
@@ -231,8 +215,5 @@ template void find_neighbours(const Particles<Axisymmetric>&, const Images&, con
                               double, NeighbourLists&);
 template void find_neighbours(const Particles<ThreeDimensional>&, const Images&,
                               const Records<ThreeDimensional>&, double, NeighbourLists&);
-template double largest_displacement(const Particles<PlaneStrain>&, const std::array<Array, 2>&);
-template double largest_displacement(const Particles<Axisymmetric>&, const std::array<Array, 2>&);
-template double largest_displacement(const Particles<ThreeDimensional>&, const std::array<Array, 3>&);
 
 } // namespace host

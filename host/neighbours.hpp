@@ -24,9 +24,4 @@ template <class Geometry>
 void find_neighbours(const Particles<Geometry>& particles, const Images& images,
                      const Records<Geometry>& records, double reach, NeighbourLists& lists);
 
-/// Largest displacement, m, from `reference`.
-template <class Geometry>
-double largest_displacement(const Particles<Geometry>& particles,
-                            const std::array<Array, Geometry::dimension>& reference);
-
 } // namespace host

@@ -15,29 +15,14 @@ template <int D> struct MotionRecord {
   double volume;      ///< m3 in 3-D, area m2 in the plane of a 2-D geometry
 };
 
-/// For the accelerations.
+/// What the accelerations need beside it. Single precision where only the viscosity, a damping, reads it.
 template <class Geometry> struct StressRecord {
   static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
-  double position[D];
-  double velocity[D];
-  double volume;
-  double weight;            ///< r in axisymmetry, signed: negative across the axis
-  double density;           ///< kg/m3
-  double damping_speed;     ///< m/s, of the artificial viscosity
-  double flux[S];           ///< weight * stress, Pa (or Pa m)
-  double gradient[D * D];   ///< of velocity, 1/s
-  double reduced_stress[S]; ///< stress less the geostatic part, Pa; what diffusion acts on
-};
-
-/// The same in three dimensions: no weight, and of the velocity gradient only what the viscosity needs.
-template <> struct StressRecord<ThreeDimensional> {
-  double position[3];
-  double velocity[3];
-  double volume;
-  double density;        ///< kg/m3
-  double damping_speed;  ///< m/s
-  double flux[6];        ///< stress, Pa
-  double strain_rate[6]; ///< 1/s, in the order of the VUMAT, shear as the sum of both gradients
+  double stress[S]; ///< Pa
+  /// Of the coordinates, 1/s, in the order of the VUMAT, shear as the sum of both gradients.
+  float strain_rate[D * (D + 1) / 2];
+  float density;       ///< kg/m3
+  float damping_speed; ///< m/s, of the artificial viscosity
 };
 
 template <class Geometry> struct Records {

@@ -3,85 +3,91 @@
 // rotation exp(dt skew(L)), which turns the old stress exactly, whatever the angle.
 #pragma once
 #include "host/geometry.hpp"
-#include "host/particles.hpp"
+#include "host/lane.hpp"
+#include <array>
 #include <cmath>
 
 namespace host {
 
 /// Strain increment in the order of the VUMAT, and the rotation vector, rad: in two dimensions its only
 /// component is the angle from axis 1 to axis 2.
-template <class Geometry> struct StepStrain {
-  std::array<double, Geometry::stress_components> strain;
-  std::array<double, Geometry::shear_components> angle;
+template <class Geometry, class Real> struct StepStrain {
+  std::array<Real, Geometry::stress_components> strain;
+  std::array<Real, Geometry::shear_components> angle;
 };
 
-/// Hoop strain rate v_r / r. Within a spacing of the axis it is d v_r / d r, which is the same where a flow is
-/// regular: there v_r / r turns each jitter of the innermost ring into strain, and its stress would grow
-/// to many times that of its neighbours during a collapse.
-template <class Geometry> double hoop_rate(const Particles<Geometry>& p, int i, double spacing) {
-  if (!Geometry::hoop) return 0;
-  return p.position[0][i] < spacing ? p.velocity_gradient[0][i] : p.velocity[0][i] / p.position[0][i];
-}
-
-/// Shear rate in the plane of the axis and its radius. By symmetry it vanishes on the axis, and so does the stress it
-/// makes: the ring within a spacing of the axis takes none. With it, noise there loads a pillar of several times
-/// the stress around it, which may burst.
-template <class Geometry> bool sheared(const Particles<Geometry>& p, int i, double spacing) {
-  return !Geometry::hoop || p.position[0][i] >= spacing;
-}
-
-template <class Geometry>
-StepStrain<Geometry> step_strain(const Particles<Geometry>& p, int i, double dt, double spacing) {
+/// Of a particle (or of eight) whose gradient is `gradient`, 1/s; `r` and `v_r` are its first coordinate and
+/// velocity. The hoop strain rate is v_r / r; within a spacing of the axis it is d v_r / d r, which is the same where
+/// a flow is regular: there v_r / r turns each jitter of the innermost ring into strain, and its stress would
+/// grow to many times that of its neighbours during a collapse. By symmetry shear in the plane of the axis and its
+/// radius vanishes on the axis, and so does the stress it makes: the ring within a spacing of the axis takes none.
+/// With it, noise there loads a pillar of several times the stress around it, which may burst.
+template <class Geometry, class Real, std::size_t N>
+inline StepStrain<Geometry, Real> step_strain(const std::array<Real, N>& gradient, const Real& r,
+                                              const Real& v_r, double dt, double spacing) {
   constexpr int D = Geometry::dimension;
-  const auto l = [&](int a, int b) { return p.velocity_gradient[a * D + b][i]; };
-  const auto shear = [&](int a, int b) { return 0.5 * (l(a, b) + l(b, a)) * dt; };
-  const auto turn = [&](int a, int b) { return 0.5 * (l(b, a) - l(a, b)) * dt; }; // from axis a to axis b
-  if constexpr (D == 2)
-    return {
-        {l(0, 0) * dt, l(1, 1) * dt, hoop_rate(p, i, spacing) * dt, sheared(p, i, spacing) ? shear(0, 1) : 0},
-        {turn(0, 1)}};
-  else
+  const auto l = [&](int a, int b) { return gradient[a * D + b]; };
+  const auto shear = [&](int a, int b) -> Real { return 0.5 * dt * (l(a, b) + l(b, a)); };
+  const auto turn = [&](int a, int b) -> Real { return 0.5 * dt * (l(b, a) - l(a, b)); }; // from axis a to b
+  if constexpr (D == 2) {
+    Real hoop{}, in_plane = shear(0, 1);
+    if constexpr (Geometry::hoop) {
+      const Real rate = v_r / r;
+      hoop = dt * (r < spacing ? l(0, 0) : rate);
+      in_plane = r < spacing ? Real{} : in_plane;
+    }
+    return {{l(0, 0) * dt, l(1, 1) * dt, hoop, in_plane}, {turn(0, 1)}};
+  } else
     return {{l(0, 0) * dt, l(1, 1) * dt, l(2, 2) * dt, shear(0, 1), shear(1, 2), shear(2, 0)},
             {turn(1, 2), turn(2, 0), turn(0, 1)}};
 }
 
+/// sin(t)/t and (1 - cos(t))/t2 of t2 = t squared. Below 0.1 rad both are series, exact to rounding.
+template <class Real> inline std::array<Real, 2> turning(const Real& t2) {
+  if (!(largest(t2) < 0.01)) {
+    const auto sine = [](double x) {
+      return x < 0.01 ? turning(x)[0] : std::sin(std::sqrt(x)) / std::sqrt(x);
+    };
+    const auto cosine = [](double x) { return x < 0.01 ? turning(x)[1] : (1 - std::cos(std::sqrt(x))) / x; };
+    return {each(t2, sine), each(t2, cosine)};
+  }
+  return {1 - t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72))),
+          0.5 - t2 / 24 * (1 - t2 / 30 * (1 - t2 / 56 * (1 - t2 / 90)))};
+}
+
 /// In-plane tensor (11, 22, 33, 12) turned by `angle` from axis 1 to axis 2.
-inline std::array<double, 4> turned(const std::array<double, 4>& s, const std::array<double, 1>& angle) {
-  const double cosine = std::cos(2 * angle[0]), sine = std::sin(2 * angle[0]);
-  const double mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
-  const double turned_half = half * cosine - s[3] * sine;
+template <class Real>
+inline std::array<Real, 4> turned(const std::array<Real, 4>& s, const std::array<Real, 1>& angle) {
+  const Real twice = 2 * angle[0];
+  const auto [a, b] = turning<Real>(twice * twice);
+  const Real cosine = 1 - b * twice * twice, sine = a * twice;
+  const Real mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
+  const Real turned_half = half * cosine - s[3] * sine;
   return {mean + turned_half, mean - turned_half, s[2], half * sine + s[3] * cosine};
 }
 
 /// Rotation matrix, row by row, of the rotation vector w (Rodrigues): 1 + a W + b W2 with W x = w cross x,
-/// a = sin(t)/t, b = (1 - cos(t))/t2, t = |w|. Below 0.1 rad both are series, exact to rounding.
-inline std::array<double, 9> rotation_matrix(const std::array<double, 3>& w) {
-  const double t2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
-  double a, b;
-  if (t2 < 0.01) {
-    a = 1 - t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72)));
-    b = 0.5 - t2 / 24 * (1 - t2 / 30 * (1 - t2 / 56 * (1 - t2 / 90)));
-  } else {
-    const double t = std::sqrt(t2);
-    a = std::sin(t) / t;
-    b = (1 - std::cos(t)) / t2;
-  }
-  const double c = 1 - b * t2;
+/// a = sin(t)/t, b = (1 - cos(t))/t2, t = |w|.
+template <class Real> inline std::array<Real, 9> rotation_matrix(const std::array<Real, 3>& w) {
+  const Real t2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+  const auto [a, b] = turning(t2);
+  const Real c = 1 - b * t2;
   return {c + b * w[0] * w[0],        b * w[0] * w[1] - a * w[2], b * w[0] * w[2] + a * w[1],
           b * w[0] * w[1] + a * w[2], c + b * w[1] * w[1],        b * w[1] * w[2] - a * w[0],
           b * w[0] * w[2] - a * w[1], b * w[1] * w[2] + a * w[0], c + b * w[2] * w[2]};
 }
 
 /// R s R^T of a symmetric tensor (11, 22, 33, 12, 23, 31), R the rotation of the vector `angle`.
-inline std::array<double, 6> turned(const std::array<double, 6>& s, const std::array<double, 3>& angle) {
+template <class Real>
+inline std::array<Real, 6> turned(const std::array<Real, 6>& s, const std::array<Real, 3>& angle) {
   const auto r = rotation_matrix(angle);
-  double half[9]; // R s
+  Real half[9]; // R s
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) {
-      half[3 * a + b] = 0;
+      half[3 * a + b] = Real{};
       for (int e = 0; e < 3; ++e) half[3 * a + b] += r[3 * a + e] * s[component<3>(e, b)];
     }
-  const auto entry = [&](int a, int b) {
+  const auto entry = [&](int a, int b) -> Real {
     return half[3 * a] * r[3 * b] + half[3 * a + 1] * r[3 * b + 1] + half[3 * a + 2] * r[3 * b + 2];
   };
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)};

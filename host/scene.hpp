@@ -52,13 +52,13 @@ struct Gate {
 
 /// Numerical choices; their effect is measured, the defaults are the recommended ones.
 struct Numerics {
-  double smoothing_length = 1.5;   ///< in spacings
-  double viscosity = 0.05;         ///< alpha of the artificial viscosity: times the wave speed
-  double flow_viscosity = 25;      ///< beta: times smoothing length and velocity gradient
-  double stress_diffusion = 5;     ///< in smoothing lengths squared per unit strain
-  double step_factor = 0.4;        ///< step = factor * h / (wave speed + flow speed)
-  double wave_speed_tolerance = 0; ///< change of stress up to which a wave speed is kept, relative
-  double skin = 0.4;               ///< of the neighbour lists, in spacings
+  double smoothing_length = 1.5;      ///< in spacings
+  double viscosity = 0.05;            ///< alpha of the artificial viscosity: times the wave speed
+  double flow_viscosity = 25;         ///< beta: times smoothing length and velocity gradient
+  double stress_diffusion = 5;        ///< in smoothing lengths squared per unit strain
+  double step_factor = 0.4;           ///< step = factor * h / (wave speed + flow speed)
+  double wave_speed_tolerance = 0.02; ///< change of stress up to which a wave speed is kept, relative
+  double skin = 0.4;                  ///< of the neighbour lists, in spacings
 };
 
 struct Scene {

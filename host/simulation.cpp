@@ -2,7 +2,6 @@
 #include "host/simulation.hpp"
 #include "host/corotational.hpp"
 #include "host/geometry.hpp"
-#include "host/guard.hpp"
 #include "host/lattice.hpp"
 #include <chrono>
 #include <fmt/format.h>
@@ -30,10 +29,31 @@ template <class Geometry> double list_reach(const Simulation<Geometry>& s) {
 template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
   move_gate(s.mirrors, s.scene, s.time);
   const double half_skin = 0.5 * s.scene.numerics.skin * s.scene.spacing;
-  if (s.rebuilds == 0 || largest_displacement(s.particles, s.listed_position) > half_skin)
+  if (s.rebuilds == 0 || s.moved > half_skin)
     update_lists(s);
   else
     show_all_motion(s);
+}
+
+/// Wave and flow speed of the particles of cluster c together, m/s.
+template <class Geometry> Lane speeds(const Particles<Geometry>& p, int c) {
+  Lane square{};
+  for (const auto& velocity : p.velocity) {
+    const Lane v = load(&velocity[c * lanes]);
+    square += v * v;
+  }
+  return load(&p.wave_speed[c * lanes]) + square_root(square);
+}
+
+/// The particle with the largest of them.
+template <class Geometry> std::pair<double, int> fastest_of(const Particles<Geometry>& p) {
+  Lane most{};
+  for (int c = 0; c < p.clusters(); ++c) most = larger(speeds(p, c), most); // what is no number is left out
+  const double fastest = largest(most);
+  for (int c = 0; c < p.clusters(); ++c)
+    for (int l = 0; l < lanes; ++l)
+      if (speeds(p, c)[l] == fastest) return {fastest, c * lanes + l};
+  return {fastest, 0};
 }
 
 /// Step from the current wave speed. It shrinks at once and grows slowly: a deposit that opens up for a
@@ -41,16 +61,7 @@ template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
 template <class Geometry> void choose_step(Simulation<Geometry>& s) {
   constexpr double growth = 1.02, smallest = 1e-3; // of the step before; of the first step
   update_wave_speed(s.particles, s.scene.material, s.blocks, s.steps);
-  double fastest = 0;
-  int at = 0;
-  for (int i = 0; i < s.particles.count; ++i) {
-    double square = 0;
-    for (const auto& v : s.particles.velocity) square += v[i] * v[i];
-    const double speed = s.particles.wave_speed[i] + std::sqrt(square);
-    if (speed <= fastest) continue; // false for what is not a number
-    fastest = speed;
-    at = i;
-  }
+  auto [fastest, at] = fastest_of(s.particles);
   fastest *= 1 + 0.5 * s.scene.numerics.wave_speed_tolerance; // a modulus grows at most with the stress
   const double wanted = s.scene.numerics.step_factor * s.kernel.h / fastest;
   s.dt = s.steps == 0 ? wanted : std::min(wanted, growth * s.dt);
@@ -64,9 +75,13 @@ template <class Geometry> void choose_step(Simulation<Geometry>& s) {
         s.time, s.dt, s.first_dt, s.particles.id[at], fmt::join(place, ", "), fastest));
 }
 
-template <class Geometry> void show_all_stress(Simulation<Geometry>& s) {
-  show_stress(s.particles, s.scene, s.kernel.h, s.records);
-  reflect_stress(s.images, s.mirrors, s.records);
+/// Room for `size` records; none of the old ones is kept.
+template <class Record> void make_room(std::vector<Record>& records, std::size_t size) {
+  if (size > records.capacity()) {
+    std::vector<Record>().swap(records);
+    records.reserve(size + size / 32);
+  }
+  records.resize(size);
 }
 
 } // namespace
@@ -85,6 +100,7 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   // An increment without strain, so that the material's own initial state is there from the start.
   constexpr double instant = 1e-12; // s
   update_stress(s.particles, scene.material, {instant, instant, instant}, s.blocks);
+  s.particles.each_of_stages([](Array& a) { Array().swap(a); }); // a step needs none
   s.initial_potential_energy = potential_energy(s.particles, scene.gravity);
   return s;
 }
@@ -93,47 +109,41 @@ template <class Geometry> void update_lists(Simulation<Geometry>& s) {
   sort_particles(s.particles, 0.25 * s.scene.spacing);
   s.images = find_images(s.particles, s.mirrors, list_reach(s));
   const std::size_t size = s.particles.padded() + s.images.list.size();
-  s.records.motion.resize(size);
-  s.records.stress.resize(size);
+  make_room(s.records.motion, size);
+  make_room(s.records.stress, size);
   show_all_motion(s);
   find_neighbours(s.particles, s.images, s.records, list_reach(s), s.lists);
-  s.listed_position = s.particles.position;
+  s.moved = 0;
   ++s.rebuilds;
 }
 
-template <class Geometry> Memory memory_of(const Simulation<Geometry>& simulation) {
-  auto s = simulation; // `each_persistent` hands out what may be changed
-  auto& p = s.particles;
-  std::size_t numbers = 0;
-  const auto count = [&](const auto& array) { numbers += array.size(); };
-  p.each_persistent(count);
-  for (const auto& group : {&p.stress_acceleration, &p.viscous_acceleration, &p.wall_acceleration})
-    std::ranges::for_each(*group, count);
-  std::ranges::for_each(p.velocity_gradient, count);
-  std::ranges::for_each(s.listed_position, count);
+template <class Geometry> Memory memory_of(const Simulation<Geometry>& s) {
+  const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   Memory memory;
-  memory.data = numbers * sizeof(double) + p.id.size() * sizeof(int) +
-                s.records.motion.size() * sizeof(s.records.motion[0]) +
-                s.records.stress.size() * sizeof(s.records.stress[0]) + s.images.list.size() * sizeof(Image);
-  memory.lists = (s.lists.entries.size() + s.lists.interior.size() + s.lists.total.size()) * sizeof(int);
+  const auto count = [&](const Array& array) { memory.data += bytes(array); };
+  s.particles.each_persistent(count);
+  s.particles.each_of_stages(count);
+  count(s.particles.diffusivity);
+  memory.data += bytes(s.particles.id) + bytes(s.records.motion) + bytes(s.records.stress) +
+                 bytes(s.images.list) + bytes(s.blocks.due) + bytes(s.motions);
+  memory.lists = bytes(s.lists.entries) + bytes(s.lists.interior) + bytes(s.lists.total);
   return memory;
 }
 
 template <class Geometry> void step(Simulation<Geometry>& s) {
   timed(s, Stage::neighbours, [&] { update_neighbours(s); });
   timed(s, Stage::wave_speed, [&] { choose_step(s); });
-  timed(s, Stage::gradient, [&] {
-    update_gradient(s.particles, s.kernel, s.lists, s.records);
-    check_strain(s.particles, s.time, s.dt);
+  timed(s, Stage::deformation, [&] {
+    const Increment increment{s.time + s.dt, s.time + s.dt, s.dt};
+    deform(s.particles, s.kernel, s.lists, s.scene, increment, s.blocks, s.records);
+    reflect_stress(s.images, s.mirrors, s.records);
   });
-  const Increment increment{s.time + s.dt, s.time + s.dt, s.dt};
-  timed(s, Stage::stress, [&] {
-    update_stress(s.particles, s.scene.material, increment, s.blocks);
-    show_all_stress(s);
+  timed(s, Stage::motion, [&] {
+    const auto motion =
+        move(s.particles, s.kernel, s.lists, s.scene, s.mirrors, s.dt_before, s.dt, s.records, s.motions);
+    s.work.add(motion.work);
+    s.moved += std::sqrt(motion.square);
   });
-  timed(s, Stage::momentum, [&] { update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene); });
-  timed(s, Stage::integrate,
-        [&] { s.work.add(integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt)); });
   s.time += s.dt;
   s.dt_before = s.dt;
   ++s.steps;

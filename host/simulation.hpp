@@ -2,15 +2,13 @@
 // A run: its data, and the step as a list of stages.
 #pragma once
 #include "host/gradient.hpp"
-#include "host/integrate.hpp"
-#include "host/momentum.hpp"
-#include "host/stress.hpp"
+#include "host/passes.hpp"
 
 namespace host {
 
-enum class Stage { neighbours, gradient, stress, wave_speed, momentum, integrate };
-inline constexpr std::array stage_names{"neighbours", "gradient", "stress (VUMAT)",
-                                        "wave speed", "momentum", "integrate"};
+enum class Stage { neighbours, wave_speed, deformation, motion };
+inline constexpr std::array stage_names{"neighbours", "wave speed", "gradient and stress",
+                                        "forces and motion"};
 
 template <class Geometry> struct Simulation {
   Scene scene;
@@ -23,7 +21,7 @@ template <class Geometry> struct Simulation {
   Images images{};
   NeighbourLists lists{};
   Records<Geometry> records{};
-  std::array<Array, Geometry::dimension> listed_position{};
+  double moved = 0; ///< m, bound of what any particle has moved since
 
   double time = 0;                            ///< s
   double dt = 0, dt_before = 0, first_dt = 0; ///< s: this step, the last, the first
@@ -31,6 +29,7 @@ template <class Geometry> struct Simulation {
   Work work{};
   double initial_potential_energy = 0;
   std::array<double, stage_names.size()> stage_seconds{};
+  std::vector<ClusterMotion> motions{}; ///< of the last step
 };
 
 /// The scene at time 0. Throws std::runtime_error for a scene without particles.

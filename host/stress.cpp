@@ -17,41 +17,83 @@ StressBlocks make_stress_blocks(const Material& material, const Particles<Geomet
   return blocks;
 }
 
+namespace {
+
+/// Strain increments, turned old stress and densities of particles first, first + 1, ...; density is advanced.
+template <class Geometry>
+void strain_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, double dt,
+                  double spacing, bool turning, VumatBlock& b) {
+  constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+  for (int k = 0; k < b.points; k += lanes) {
+    const int i = first + k, used = std::min(lanes, b.points - k);
+    std::array<Lane, D * D> slope;
+    std::array<Lane, S> stress;
+    for (int e = 0; e < D * D; ++e) slope[e] = load(&gradient.component[e][k]);
+    for (int c = 0; c < S; ++c) stress[c] = load(&p.stress[c][i]);
+    const auto step =
+        step_strain<Geometry>(slope, load(&p.position[0][i]), load(&p.velocity[0][i]), dt, spacing);
+    if (turning) stress = turned(stress, step.angle);
+    for (int c = 0; c < S; ++c) {
+      store(&b.strain_increment[c * b.points + k], step.strain[c], used);
+      store(&b.stress_old[c * b.points + k], stress[c], used);
+    }
+    const Lane volumetric = step.strain[0] + step.strain[1] + step.strain[2], density = load(&p.density[i]);
+    store(&b.density[k], density * (1 - 0.25 * volumetric) / (1 + 0.25 * volumetric), used); // mid-increment
+    store(&p.density[i], density * (1 - 0.5 * volumetric) / (1 + 0.5 * volumetric),
+          used); // exp(-volumetric) to third order
+  }
+}
+
+/// Stress, state and energies after a call.
+template <class Geometry> void keep_answer(const VumatBlock& b, int first, Particles<Geometry>& p) {
+  const int n = b.points;
+  for (int c = 0; c < Geometry::stress_components; ++c)
+    std::copy_n(&b.stress_new[c * n], n, &p.stress[c][first]);
+  for (int s = 0; s < b.state_variables; ++s) std::copy_n(&b.state_new[s * n], n, &p.state[s][first]);
+  std::copy_n(b.internal_energy_new.begin(), n, &p.internal_energy[first]);
+  std::copy_n(b.inelastic_energy_new.begin(), n, &p.inelastic_energy[first]);
+}
+
+} // namespace
+
+template <class Geometry>
+void advance_stress(Particles<Geometry>& p, const Material& material, const Increment& increment,
+                    const StressBlocks& blocks, const BlockGradient<Geometry>& gradient, int first,
+                    VumatBlock& b, Failure& failure) {
+  const bool corotational = material.frame == Frame::green_naghdi;
+  pack(p, first, blocks.spacing, b);
+  strain_block(p, gradient, first, increment.dt, blocks.spacing, !corotational, b);
+  if (corotational) enter_corotational(p, gradient, first, increment.dt, b);
+  call_vumat(material, increment, b);
+  if (note_failure([=](int k) { return first + k; }, material, increment, b, blocks.failure_state, failure))
+    return;
+  if (corotational) {
+    leave_corotational(b);
+    keep_deformation(b, first, p);
+  }
+  keep_answer(b, first, p);
+}
+
 template <class Geometry>
 void update_stress(Particles<Geometry>& p, const Material& material, const Increment& increment,
                    StressBlocks& blocks) {
-  const bool corotational = material.frame == Frame::green_naghdi;
   Failure failure;
   for_each_block(p, material, blocks, [&](int first, VumatBlock& b) {
-    const int n = b.points;
-    pack(p, first, blocks.spacing, b);
-    for (int k = 0; k < n; ++k) {
-      const int i = first + k;
-      const auto step = step_strain(p, i, increment.dt, blocks.spacing);
-      const auto old_stress = corotational ? stress_of(p, i) : turned(stress_of(p, i), step.angle);
-      for (int c = 0; c < Geometry::stress_components; ++c) {
-        b.strain_increment[c * n + k] = step.strain[c];
-        b.stress_old[c * n + k] = old_stress[c] + p.stress_diffusion[c][i] * increment.dt;
-      }
-      const double volumetric = step.strain[0] + step.strain[1] + step.strain[2];
-      b.density[k] = p.density[i] * (1 - 0.25 * volumetric) / (1 + 0.25 * volumetric); // mid-increment
-      p.density[i] *= (1 - 0.5 * volumetric) / (1 + 0.5 * volumetric); // exp(-volumetric) to third order
-    }
-    if (corotational) enter_corotational(p, first, increment.dt, b);
-    call_vumat(material, increment, b);
-    if (note_failure([=](int k) { return first + k; }, material, increment, b, blocks.failure_state, failure))
-      return;
-    if (corotational) {
-      leave_corotational(b);
-      keep_deformation(b, first, p);
-    }
+    BlockGradient<Geometry> gradient{};
+    for (std::size_t e = 0; e < p.velocity_gradient.size(); ++e)
+      std::copy_n(&p.velocity_gradient[e][first], b.points, gradient.component[e]);
     for (int c = 0; c < Geometry::stress_components; ++c)
-      std::copy_n(&b.stress_new[c * n], n, &p.stress[c][first]);
-    for (int s = 0; s < b.state_variables; ++s) std::copy_n(&b.state_new[s * n], n, &p.state[s][first]);
-    std::copy_n(b.internal_energy_new.begin(), n, &p.internal_energy[first]);
-    std::copy_n(b.inelastic_energy_new.begin(), n, &p.inelastic_energy[first]);
+      for (int i = first; i < first + b.points; ++i)
+        p.stress[c][i] += p.stress_diffusion[c][i] * increment.dt;
+    advance_stress(p, material, increment, blocks, gradient, first, b, failure);
   });
   if (failure.call) report_failure(p, material, failure, blocks.failure_state);
+}
+
+/// Diffusivity of stress, m2/s: delta h2 |grad v|, so that noise is smoothed as it arises, by strain, and a
+/// deposit at rest keeps its stress; at most 0.1 h c, where it would limit the step.
+static double stress_diffusivity(double delta, double h, double wave_speed, double gradient_norm) {
+  return std::min(delta * h * h * gradient_norm, 0.1 * h * wave_speed);
 }
 
 double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm) {
@@ -59,67 +101,57 @@ double damping_speed(const Numerics& numerics, double h, double wave_speed, doub
                   numerics.viscosity * wave_speed + numerics.flow_viscosity * h * gradient_norm);
 }
 
-namespace {
-
-/// What a record holds beyond position, velocity, volume, density and damping: in two dimensions ...
 template <class Geometry>
-void show_weighted(const Particles<Geometry>& p, int i, const Scene& scene, StressRecord<Geometry>& record) {
+void show_stress_of(Particles<Geometry>& p, int i,
+                    const std::array<double, Geometry::dimension * Geometry::dimension>& gradient,
+                    const Numerics& numerics, double h, Records<Geometry>& records) {
   constexpr int D = Geometry::dimension;
-  record.weight = Geometry::weight(p.position[0][i]);
-  for (int e = 0; e < D * D; ++e) record.gradient[e] = p.velocity_gradient[e][i];
-  const double geostatic = scene.bulk_density * scene.gravity * p.position[D - 1][i];
-  for (int c = 0; c < Geometry::stress_components; ++c) {
-    const double part = c >= 3 ? 0 : (c == D - 1 ? 1 : scene.earth_pressure_ratio);
-    record.flux[c] = record.weight * p.stress[c][i];
-    record.reduced_stress[c] = p.stress[c][i] - part * geostatic;
+  auto& record = records.stress[i];
+  double square = 0;
+  for (const double g : gradient) square += g * g;
+  const double norm = std::sqrt(square);
+  for (int c = 0; c < Geometry::stress_components; ++c) record.stress[c] = p.stress[c][i];
+  for (int c = 0; c < D * (D + 1) / 2; ++c) {
+    const int a = c < D ? c : (c - D) % D, b = c < D ? c : (c - D + 1) % D;
+    record.strain_rate[c] = float(a == b ? gradient[a * D + a] : gradient[a * D + b] + gradient[b * D + a]);
   }
+  record.density = float(p.density[i]);
+  record.damping_speed = float(damping_speed(numerics, h, p.wave_speed[i], norm));
+  p.diffusivity[i] = stress_diffusivity(numerics.stress_diffusion, h, p.wave_speed[i], norm);
 }
-
-/// ... and in three.
-void show_solid(const Particles<ThreeDimensional>& p, int i, StressRecord<ThreeDimensional>& record) {
-  const auto l = [&](int a, int b) { return p.velocity_gradient[3 * a + b][i]; };
-  for (int c = 0; c < 6; ++c) record.flux[c] = p.stress[c][i];
-  for (int a = 0; a < 3; ++a) {
-    record.strain_rate[a] = l(a, a);
-    record.strain_rate[3 + a] = l(a, (a + 1) % 3) + l((a + 1) % 3, a);
-  }
-}
-
-} // namespace
 
 template <class Geometry>
-void show_stress(const Particles<Geometry>& p, const Scene& scene, double smoothing_length,
-                 Records<Geometry>& records) {
+void show_stress(Particles<Geometry>& p, const Scene& scene, double h, Records<Geometry>& records) {
   constexpr int D = Geometry::dimension;
 #pragma omp parallel for schedule(static)
   for (int i = 0; i < p.count; ++i) {
-    auto& record = records.stress[i];
-    for (int a = 0; a < D; ++a) {
-      record.position[a] = p.position[a][i];
-      record.velocity[a] = p.velocity[a][i];
-    }
-    record.volume = records.motion[i].volume;
-    record.density = p.density[i];
-    double square = 0;
-    for (int e = 0; e < D * D; ++e) square += p.velocity_gradient[e][i] * p.velocity_gradient[e][i];
-    record.damping_speed =
-        damping_speed(scene.numerics, smoothing_length, p.wave_speed[i], std::sqrt(square));
-    if constexpr (D == 3)
-      show_solid(p, i, record);
-    else
-      show_weighted(p, i, scene, record);
+    std::array<double, D * D> gradient;
+    for (int e = 0; e < D * D; ++e) gradient[e] = p.velocity_gradient[e][i];
+    show_stress_of(p, i, gradient, scene.numerics, h, records);
   }
 }
 
 template StressBlocks make_stress_blocks(const Material&, const Particles<PlaneStrain>&, double);
-template StressBlocks make_stress_blocks(const Material&, const Particles<Axisymmetric>&, double);
-template StressBlocks make_stress_blocks(const Material&, const Particles<ThreeDimensional>&, double);
+template void advance_stress(Particles<PlaneStrain>&, const Material&, const Increment&, const StressBlocks&,
+                             const BlockGradient<PlaneStrain>&, int, VumatBlock&, Failure&);
 template void update_stress(Particles<PlaneStrain>&, const Material&, const Increment&, StressBlocks&);
+template void show_stress_of(Particles<PlaneStrain>&, int, const std::array<double, 4>&, const Numerics&,
+                             double, Records<PlaneStrain>&);
+template void show_stress(Particles<PlaneStrain>&, const Scene&, double, Records<PlaneStrain>&);
+template StressBlocks make_stress_blocks(const Material&, const Particles<Axisymmetric>&, double);
+template void advance_stress(Particles<Axisymmetric>&, const Material&, const Increment&, const StressBlocks&,
+                             const BlockGradient<Axisymmetric>&, int, VumatBlock&, Failure&);
 template void update_stress(Particles<Axisymmetric>&, const Material&, const Increment&, StressBlocks&);
+template void show_stress_of(Particles<Axisymmetric>&, int, const std::array<double, 4>&, const Numerics&,
+                             double, Records<Axisymmetric>&);
+template void show_stress(Particles<Axisymmetric>&, const Scene&, double, Records<Axisymmetric>&);
+template StressBlocks make_stress_blocks(const Material&, const Particles<ThreeDimensional>&, double);
+template void advance_stress(Particles<ThreeDimensional>&, const Material&, const Increment&,
+                             const StressBlocks&, const BlockGradient<ThreeDimensional>&, int, VumatBlock&,
+                             Failure&);
 template void update_stress(Particles<ThreeDimensional>&, const Material&, const Increment&, StressBlocks&);
-template void show_stress(const Particles<PlaneStrain>&, const Scene&, double, Records<PlaneStrain>&);
-template void show_stress(const Particles<Axisymmetric>&, const Scene&, double, Records<Axisymmetric>&);
-template void show_stress(const Particles<ThreeDimensional>&, const Scene&, double,
-                          Records<ThreeDimensional>&);
+template void show_stress_of(Particles<ThreeDimensional>&, int, const std::array<double, 9>&, const Numerics&,
+                             double, Records<ThreeDimensional>&);
+template void show_stress(Particles<ThreeDimensional>&, const Scene&, double, Records<ThreeDimensional>&);
 
 } // namespace host

@@ -8,9 +8,15 @@
 
 namespace host {
 
+/// Velocity gradients of the particles of a block, 1/s, component a * D + b of particle k at [a * D + b][k].
+template <class Geometry> struct BlockGradient {
+  static constexpr int points = 64; ///< per block, fixed: results may not depend on the threads
+  alignas(sizeof(Lane)) double component[Geometry::dimension * Geometry::dimension][points];
+};
+
 /// One block for each thread and one for the particles left over, allocated once.
 struct StressBlocks {
-  static constexpr int points = 64; ///< per call, fixed: results may not depend on the threads
+  static constexpr int points = 64; ///< per call
   int failure_state = -1;           ///< position in STATEV that is negative after a failed update; -1: none
   double spacing = 0;               ///< m, the characteristic length of a particle
   std::vector<VumatBlock> full, tail;
@@ -22,11 +28,20 @@ template <class Geometry>
 StressBlocks make_stress_blocks(const Material& material, const Particles<Geometry>& particles,
                                 double spacing);
 
-/// Advances stress, state, energies and density over `increment`. Old stress is turned by the spin of
-/// the step (exactly, so a rigid rotation leaves no error) and the stress
-/// diffusion of the last step is added; the material sees strain in the turned frame, which serves
-/// isotropic materials. Throws std::runtime_error with particle, time, stress and strain increment if
-/// the material returns a number that is not finite.
+/// Failures of a pass over all particles: the one of the particle that comes first is reported.
+struct Failure;
+
+/// Advances stress, state, energies and density of the particles first, first + 1, ... of `block` over `increment`.
+/// Old stress is turned by the spin of the step (exactly, so a rigid rotation leaves no error); the material
+/// sees strain in the turned frame, which serves isotropic materials. Notes a number that is not finite.
+template <class Geometry>
+void advance_stress(Particles<Geometry>& particles, const Material& material, const Increment& increment,
+                    const StressBlocks& blocks, const BlockGradient<Geometry>& gradient, int first,
+                    VumatBlock& block, Failure& failure);
+
+/// The same for all particles, with the gradients and the stress diffusion that they hold. Throws
+/// std::runtime_error with particle, time, stress and strain increment if the material returns a number that is
+/// not finite.
 template <class Geometry>
 void update_stress(Particles<Geometry>& particles, const Material& material, const Increment& increment,
                    StressBlocks& blocks);
@@ -44,10 +59,15 @@ void update_wave_speed(Particles<Geometry>& particles, const Material& material,
 /// the zero-energy modes of the pair sums would hold slopes up that creep down later.
 double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm);
 
-/// Fills `records.stress` of the particles (not of the images). The reduced stress is the stress less its
-/// geostatic gradient.
+/// Fills `records.stress` and the diffusivity of stress of particle i, whose velocity gradient is `gradient`.
 template <class Geometry>
-void show_stress(const Particles<Geometry>& particles, const Scene& scene, double smoothing_length,
+void show_stress_of(Particles<Geometry>& particles, int i,
+                    const std::array<double, Geometry::dimension * Geometry::dimension>& gradient,
+                    const Numerics& numerics, double smoothing_length, Records<Geometry>& records);
+
+/// The same for all particles (not of the images).
+template <class Geometry>
+void show_stress(Particles<Geometry>& particles, const Scene& scene, double smoothing_length,
                  Records<Geometry>& records);
 
 } // namespace host

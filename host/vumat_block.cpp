@@ -36,7 +36,7 @@ void invoke(const Material& material, const Increment& increment, VumatBlock& b)
   // the old meaning.
   std::array<int, 8 + vumat::max_block> info{};
   double step_time = increment.step_time, total_time = increment.total_time;
-  auto name = padded_upper(material.name);
+  auto name = b.name;
   material.library.call(&nblock, &direct, &shear, &states, &fields, &constants, info.data(), &step_time,
                         &total_time, b.dt.data(), name.data(), b.coordinates.data(), b.char_length.data(),
                         b.constants.data(), b.density.data(), b.strain_increment.data(),
@@ -72,7 +72,8 @@ void invoke_guarded(const Material& material, const Increment& increment, VumatB
 } // namespace
 
 VumatBlock::VumatBlock(const Material& material, int points_, int shear)
-    : points(points_), shear_components(shear), state_variables(material.state_variables) {
+    : points(points_), shear_components(shear), state_variables(material.state_variables),
+      name(padded_upper(material.name)) {
   const auto make = [&](GuardedArray& a, int components, double value = 0) {
     a.assign(std::size_t(points) * components, value, 4 * std::size_t(points));
   };

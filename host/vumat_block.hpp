@@ -5,6 +5,8 @@
 #include "host/kinematics.hpp"
 #include "host/vumat_guard.hpp"
 #include "host/vumat_library.hpp"
+#include "vumat/abi.hpp"
+#include <array>
 #include <string>
 #include <vector>
 
@@ -49,10 +51,11 @@ struct VumatBlock {
   GuardedArray internal_energy_old, internal_energy_new;
   GuardedArray inelastic_energy_old, inelastic_energy_new;
   GuardedArray temperature_old, temperature_new, field_old, field_new;
-  GuardedArray dt;                  ///< argument 10: an array since 2023
-  std::vector<Tensor> rotation_new; ///< R at the end, for the caller; not shown to the material
-  long calls = 0;                   ///< so far
-  std::vector<double> input_copy;   ///< of the last call that was compared
+  GuardedArray dt;                           ///< argument 10: an array since 2023
+  std::vector<Tensor> rotation_new;          ///< R at the end, for the caller; not shown to the material
+  std::array<char, vumat::name_length> name; ///< of the material, as it is passed
+  long calls = 0;                            ///< so far
+  std::vector<double> input_copy;            ///< of the last call that was compared
 };
 
 /// Calls `f(name, array, is_input)` for all arrays of a block, by their names in ABAQUS. What a subroutine may

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each stage of a step costs: `host_rate SCENE.toml [TIME [REPEATS]]` leads a three-dimensional scene to TIME
-// (s), then repeats each stage on a copy of that state and prints the median of its processor time for each
-// particle, flops, their rate, and the memory of a particle. Processor time, so that other programs disturb
-// little. One thread.
+// What a step costs: `host_rate SCENE.toml [TIME [REPEATS]]` leads a scene of any geometry to TIME (s), then repeats
+// each part of a step on copies of that state and prints the median of its processor time for each particle, its
+// flops and bytes, and their share of what this kind of machine can do; last the whole step, and the memory of a
+// particle. Processor time, so that other programs disturb little. One thread.
+//
+// Flops are counted in the source, for all entries of the lists, since an entry is computed for all eight particles;
+// additions, multiplications, square roots and divisions one each. Those of the material are its own affair. Bytes
+// are those of the arrays that a part reads and writes for a particle, and for pairs of the neighbours' records.
 #include "drivers/scene_file.hpp"
 #include "host/geometry.hpp"
-#include "host/momentum_solid.hpp"
+#include "host/material_calls.hpp"
 #include "host/simulation.hpp"
 #include <algorithm>
 #include <ctime>
@@ -17,7 +21,8 @@
 namespace {
 
 using namespace host;
-using Run = Simulation<ThreeDimensional>;
+
+constexpr double peak_flops = 58e9, peak_bytes = 24e9; // of one core: multiply-adds in double, memory
 
 double processor_seconds() {
   timespec t;
@@ -25,10 +30,13 @@ double processor_seconds() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
+template <class Geometry> using Stage = std::function<void(Simulation<Geometry>&)>;
+
 /// Median processor time of `stage` on fresh copies of `state`, s.
-double median_time(const Run& state, int repeats, const std::function<void(Run&)>& stage) {
+template <class Geometry>
+double median_time(const Simulation<Geometry>& state, int repeats, const Stage<Geometry>& stage) {
   std::vector<double> times;
-  Run s = state;
+  auto s = state;
   for (int k = 0; k < repeats; ++k) {
     s.particles = state.particles;
     s.records = state.records;
@@ -44,7 +52,7 @@ double median_time(const Run& state, int repeats, const std::function<void(Run&)
 struct Pairs {
   double close = 0, listed = 0;
 };
-Pairs count_pairs(const Run& s) {
+template <class Geometry> Pairs count_pairs(const Simulation<Geometry>& s) {
   Pairs pairs;
   const auto& p = s.particles;
   for (int c = 0; c < p.clusters(); ++c) {
@@ -53,68 +61,102 @@ Pairs count_pairs(const Run& s) {
       for (int k = 0; k < s.lists.total[c]; ++k) {
         const auto& x = s.records.motion[s.lists.begin(c)[k]].position;
         double square = 0;
-        for (int a = 0; a < 3; ++a) square += std::pow(x[a] - p.position[a][i], 2);
+        for (int a = 0; a < Geometry::dimension; ++a) square += std::pow(x[a] - p.position[a][i], 2);
         pairs.close += (square < s.kernel.support * s.kernel.support) / double(p.count);
       }
   }
   return pairs;
 }
 
-struct Row {
+template <class Geometry> struct Row {
   const char* name;
-  double flops_per_entry; ///< counted in the source; square root and division as one each
-  double bytes_per_entry; ///< of the neighbour's record, read once for eight particles
-  std::function<void(Run&)> stage;
+  double flops, bytes; ///< for each particle; flops 0: not counted
+  Stage<Geometry> stage;
 };
 
-void measure(const Run& state, int repeats) {
-  const auto pairs = count_pairs(state);
-  const int count = state.particles.count;
-  fmt::print("{} particles, {} images; {:.1f} neighbours within the support, {:.1f} computed, {} rebuilds in "
-             "{} steps\n",
-             count, state.images.list.size(), pairs.close, pairs.listed, state.rebuilds, state.steps);
+/// The parts of a step, one by one. The state must hold the arrays that pass between them.
+template <class Geometry> std::vector<Row<Geometry>> rows(const Simulation<Geometry>& state) {
+  using Run = Simulation<Geometry>;
+  constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+  constexpr double motion = sizeof(MotionRecord<D>), stress = sizeof(StressRecord<Geometry>), real = 8;
+  const double listed = count_pairs(state).listed, states = double(state.particles.state.size());
+  const double answer = S + states + 2; // what a material changes
+  const double images = double(state.images.list.size()) / state.particles.count;
   const Increment increment{state.time + state.dt, state.time + state.dt, state.dt};
-  const Row rows[] = {
-      {"motion records", 0, 0,
+  return {
+      {"motion records", 3, (2 * D + 2) * real + motion * (1 + 2 * images),
        [](Run& s) {
          show_motion(s.particles, s.records);
          reflect_motion(s.images, s.mirrors, s.records);
        }},
-      {"wave speed", 0, 0,
+      {"wave speed", 0, (S + 2) * real,
        [](Run& s) { update_wave_speed(s.particles, s.scene.material, s.blocks, s.steps); }},
-      {"gradient", gradient_flops<3>, sizeof(MotionRecord<3>),
+      {"gradient", gradient_flops<D> * listed, (2 * D + D * D) * real + (motion + 4) * listed / lanes,
        [](Run& s) { update_gradient(s.particles, s.kernel, s.lists, s.records); }},
-      {"stress (VUMAT)", 0, 0,
-       [&](Run& s) { update_stress(s.particles, s.scene.material, increment, s.blocks); }},
-      {"stress records", 0, 0,
+      {"stress", 0, (2 * answer + D * D + 2 * D + 3) * real,
+       [=](Run& s) { update_stress(s.particles, s.scene.material, increment, s.blocks); }},
+      {"stress records", 4 * D * D, (S + D * D + 3) * real + stress * (1 + 2 * images),
        [](Run& s) {
          show_stress(s.particles, s.scene, s.kernel.h, s.records);
          reflect_stress(s.images, s.mirrors, s.records);
        }},
-      {"momentum", solid_pair_flops, sizeof(StressRecord<ThreeDimensional>),
+      {"forces", pair_flops<Geometry> * listed,
+       (2 * S + 2 + 3 * D) * real + (motion + stress + 4) * listed / lanes,
        [](Run& s) { update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene); }},
-      {"integrate", 0, 0,
+      {"motion", 20 * D, (3 * D + 4 * D + 1) * real,
        [](Run& s) { integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt); }},
   };
-  double all = 0;
-  fmt::print("{:<16}{:>14}{:>16}{:>16}{:>12}\n", "stage", "ns/particle", "flop/particle", "byte/particle",
-             "GFlop/s");
-  const auto line = [&](const char* name, double seconds, double flops, double bytes) {
+}
+
+void print_row(const char* name, double seconds, double flops, double bytes) {
+  fmt::print("{:<16}{:>12.1f}", name, 1e9 * seconds);
+  if (flops > 0)
+    fmt::print("{:>14.0f}{:>10.0f}", flops, 100 * flops / seconds / peak_flops);
+  else
+    fmt::print("{:>14}{:>10}", "-", "-");
+  fmt::print("{:>14.0f}{:>10.0f}\n", bytes, 100 * bytes / seconds / peak_bytes);
+}
+
+/// Processor time of `steps` whole steps, s for each.
+template <class Geometry> double step_time(Simulation<Geometry>& s, int steps) {
+  const double start = processor_seconds();
+  for (int k = 0; k < steps; ++k) step(s);
+  return (processor_seconds() - start) / steps;
+}
+
+template <class Geometry> void measure(Simulation<Geometry>& s, int repeats) {
+  const double count = s.particles.count;
+  const auto pairs = count_pairs(s);
+  fmt::print("{} particles, {} images; {:.1f} neighbours within the support, {:.1f} computed, {} rebuilds in "
+             "{} steps\n{:<16}{:>12}{:>14}{:>10}{:>14}{:>10}\n",
+             count, s.images.list.size(), pairs.close, pairs.listed, s.rebuilds, s.steps, "part",
+             "ns/particle", "flop/particle", "% of peak", "byte/particle", "% of peak");
+  const auto memory = memory_of(s);
+  auto state = s;
+  state.particles.each_of_stages([&](Array& a) { a.assign(state.particles.padded(), 0.0); });
+  update_gradient(state.particles, state.kernel, state.lists, state.records);
+  double all = 0, wave = 0, stress = 0;
+  for (const auto& row : rows(state)) {
+    const double seconds = median_time(state, repeats, row.stage) / count;
+    if (row.name == std::string("wave speed")) wave = seconds;
+    if (row.name == std::string("stress")) stress = seconds;
     all += seconds;
-    fmt::print("{:<16}{:>14.1f}", name, 1e9 * seconds / count);
-    if (flops > 0)
-      fmt::print("{:>16.0f}{:>16.0f}{:>12.1f}\n", flops, bytes, 1e-9 * flops * count / seconds);
-    else
-      fmt::print("\n");
-  };
-  for (const auto& [name, flops, bytes, stage] : rows)
-    line(name, median_time(state, repeats, stage), flops * pairs.listed, bytes * pairs.listed / lanes);
-  const double rebuild = median_time(state, std::max(3, repeats / 4), [](Run& s) { update_lists(s); });
-  line("lists", rebuild * double(state.rebuilds) / double(state.steps), 0, 0);
-  fmt::print("{:<16}{:>14.1f}   {:.3g} particle-steps/s\n", "whole step", 1e9 * all / count, count / all);
-  const auto memory = memory_of(state);
-  fmt::print("memory per particle: {:.0f} bytes, neighbour lists {:.0f} bytes more\n",
-             double(memory.data) / count, double(memory.lists) / count);
+    print_row(row.name, seconds, row.flops, row.bytes);
+  }
+  const double rebuild =
+      median_time<Geometry>(state, std::max(3, repeats / 4), [](auto& run) { update_lists(run); });
+  const double lists = rebuild / count * double(s.rebuilds) / double(s.steps);
+  fmt::print(
+      "{:<16}{:>12.1f}\n{:<16}{:>12.1f}   {:.3g} particle-steps/s; wave speed and stress {:.0f} % of it\n",
+      "lists", 1e9 * lists, "sum", 1e9 * (all + lists), 1 / (all + lists),
+      100 * (wave + stress) / (all + lists));
+  std::vector<double> times;
+  for (int k = 0; k < repeats; ++k) times.push_back(step_time(s, std::max(1, int(2e4 / count))));
+  std::ranges::nth_element(times, times.begin() + repeats / 2);
+  const double whole = times[repeats / 2] / count;
+  fmt::print("{:<16}{:>12.1f}   {:.3g} particle-steps/s\n", "whole step", 1e9 * whole, 1 / whole);
+  fmt::print("memory per particle: {:.0f} bytes, neighbour lists {:.0f} bytes more\n", memory.data / count,
+             memory.lists / count);
 }
 
 } // namespace
@@ -122,8 +164,11 @@ void measure(const Run& state, int repeats) {
 int main(int argc, char** argv) {
   if (argc < 2) return std::cerr << "usage: host_rate SCENE.toml [TIME [REPEATS]]\n", 2;
   omp_set_num_threads(1);
-  auto s = start_simulation<ThreeDimensional>(drivers::read_scene(argv[1]));
+  const auto scene = drivers::read_scene(argv[1]);
   const double until = argc > 2 ? std::stod(argv[2]) : 0.01;
-  while (s.time < until) step(s);
-  measure(s, argc > 3 ? std::stoi(argv[3]) : 15);
+  with_geometry(scene.geometry, [&](auto geometry) {
+    auto s = start_simulation<decltype(geometry)>(scene);
+    while (s.time < until) step(s);
+    measure(s, argc > 3 ? std::stoi(argv[3]) : 15);
+  });
 }

@@ -154,7 +154,6 @@ TEST(Lattice, StartsGeostaticHalfASpacingInside) {
     EXPECT_EQ(p.state[0][i], 0.6);
     EXPECT_EQ(p.state[1][i], -3);
     EXPECT_EQ(p.velocity[0][i], 0);
-    EXPECT_EQ(p.initial_position[0][i], x);
   }
   EXPECT_EQ(ids.size(), std::size_t(p.count));
   EXPECT_EQ(*ids.rbegin(), p.count - 1);

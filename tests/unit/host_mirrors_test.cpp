@@ -152,16 +152,11 @@ TEST(Mirrors, ACornerHoldsThreeImages) {
   expect_at(lone.motion(2), -x, -y, -3, -4);
   for (int image = 0; image < 3; ++image) EXPECT_EQ(lone.motion(image).volume, lone.records.motion[0].volume);
 
-  // Flux is r sigma: r changes sign across the axis, shear at each mirror.
-  EXPECT_EQ(lone.stress(0).weight, -x);
-  EXPECT_EQ(lone.stress(1).weight, x);
-  const double flux[3][4] = {{x * 1000, x * 2000, x * 3000, -x * 4000},
-                             {-x * 1000, -x * 2000, -x * 3000, x * 4000},
-                             {x * 1000, x * 2000, x * 3000, x * 4000}};
-  for (int image = 0; image < 3; ++image)
-    for (const int c : {0, 1, 3}) EXPECT_NEAR(lone.stress(image).flux[c], flux[image][c], 1e-12);
-  EXPECT_EQ(lone.stress(0).reduced_stress[3], 4000);
-  EXPECT_EQ(lone.stress(2).reduced_stress[3], -4000);
+  const double shear[3] = {4000, 4000, -4000}; // changes its sign at each mirror
+  for (int image = 0; image < 3; ++image) {
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(lone.stress(image).stress[c], -1000.0 * (c + 1));
+    EXPECT_EQ(lone.stress(image).stress[3], shear[image]);
+  }
 }
 
 TEST(Mirrors, BehindTheFloorTheWeightGoesOn) {
@@ -170,8 +165,8 @@ TEST(Mirrors, BehindTheFloorTheWeightGoesOn) {
   const double x = 10 * spacing, y = 0.5 * spacing, more = 1500 * 10 * 2 * y;
   const Lone lone(scene, x, y);
   ASSERT_EQ(lone.images.list.size(), 1);
-  EXPECT_NEAR(lone.stress(0).flux[1], x * (-2000 - more), 1e-12);
-  EXPECT_NEAR(lone.stress(0).flux[0], x * (-1000 - 0.5 * more), 1e-12);
+  EXPECT_NEAR(lone.stress(0).stress[1], -2000 - more, 1e-12);
+  EXPECT_NEAR(lone.stress(0).stress[0], -1000 - 0.5 * more, 1e-12);
 }
 
 TEST(Mirrors, TheGateActsAboveItsEdge) {
@@ -185,7 +180,6 @@ TEST(Mirrors, TheGateActsAboveItsEdge) {
   move_gate(lone.mirrors, scene, (edge + 1e-6) / 1.6); // just above the particle
   lone.reflect();
   EXPECT_EQ(lone.motion(0).volume, 0);
-  EXPECT_EQ(lone.stress(0).volume, 0);
   EXPECT_TRUE(find_images(lone.p, lone.mirrors, reach).list.empty());
 
   lone.p.position[1][0] = edge + 2e-6; // thrown up, inside
@@ -239,17 +233,14 @@ TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
                         turned_gradient = reflection * gradient * reflection;
   for (int a = 0; a < 3; ++a) {
     EXPECT_NEAR(motion.position[a], a < 2 ? (2 * radius - r) * normal[a] : 10 * spacing, 1e-15);
-    EXPECT_EQ(image.position[a], motion.position[a]);
     EXPECT_NEAR(motion.velocity[a], reflected[a], 1e-14);
-    EXPECT_EQ(image.velocity[a], motion.velocity[a]);
     for (int b = a; b < 3; ++b) {
       const double both = turned_gradient(a, b) + (a == b ? 0 : turned_gradient(b, a));
-      EXPECT_NEAR(image.flux[component<3>(a, b)], turned(a, b), 1e-14);
-      EXPECT_NEAR(image.strain_rate[component<3>(a, b)], both, 1e-13);
+      EXPECT_NEAR(image.stress[component<3>(a, b)], turned(a, b), 1e-14);
+      EXPECT_NEAR(image.strain_rate[component<3>(a, b)], both, 4e-7 * gradient.norm());
     }
   }
   EXPECT_NEAR(motion.volume, std::pow(spacing, 3) * (2 * radius - r) / r, 1e-20);
-  EXPECT_EQ(image.volume, motion.volume);
 }
 
 /// A column in a flow and a stress that are symmetric about the axis.

@@ -111,8 +111,9 @@ TEST(Stress, TurnsWithTheMaterialInThreeDimensions) {
 TEST(Stress, AboutTheThirdAxisBothRotationsAgree) {
   const std::array<double, 4> plane{-900, -1100, -1000, 60};
   for (const double angle : {0.01, 1.3}) {
-    const auto two = turned(plane, {angle});
-    const auto three = turned({plane[0], plane[1], plane[2], plane[3], 0, 0}, {0, 0, angle});
+    const auto two = turned(plane, std::array{angle});
+    const auto three =
+        turned(std::array{plane[0], plane[1], plane[2], plane[3], 0., 0.}, std::array{0., 0., angle});
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(three[c], two[c], 1e-10);
   }
 }

@@ -51,6 +51,25 @@ TEST(Guard, TheSceneFileTakesNoStepThatCouldGoWrongUnseen) {
                   "key 'numerics.step_factor': expected a number from 0.0001 to 1, found 1.5"));
 }
 
+TEST(Guard, SofterSandTakesLongerSteps) {
+  const auto first_step = [](const std::string& material) {
+    const auto scene = tests::column_scene({.spacing = 0.005, .extra = material}, "guard_soft");
+    auto s = host::start_simulation<Axisymmetric>(scene);
+    host::step(s);
+    return s.first_dt;
+  };
+  EXPECT_NEAR(first_step("stiffness_scale = 0.25") / first_step(""), 2, 1e-3);
+  EXPECT_EQ(first_step("stiffness_scale = 1"), first_step(""));
+  const auto refused = [&](const std::string& value) {
+    return error_of([&] { first_step("stiffness_scale = " + value); });
+  };
+  EXPECT_TRUE(
+      has(refused("1.5"), "key 'material.stiffness_scale': expected a number from 0.001 to 1, found 1.5"));
+  EXPECT_TRUE(has(
+      refused("0.1\nK0 = 5"),
+      "key 'material.stiffness_scale': expected a number that leaves K0 at 1 or more, found 0.1 for K0 = 5"));
+}
+
 TEST(Guard, TheLargestStepOfASceneFileIsSound) {
   omp_set_num_threads(1);
   const auto run = [](const std::string& numerics) {
@@ -69,13 +88,14 @@ TEST(Guard, NamesTheParticleThatStrainsTooMuch) {
       tests::column_scene({.geometry = "plane_strain", .spacing = 0.01}, "guard_strain"));
   auto& p = s.particles;
   const double dt = 1e-4, bound = host::largest_strain_step / dt;
-  p.velocity_gradient[2][7] = -0.99 * bound;
-  EXPECT_EQ(error_of([&] { host::check_strain(p, 0.5, dt); }), "no error");
-  p.velocity_gradient[2][7] = -1.01 * bound;
-  EXPECT_TRUE(has(error_of([&] { host::check_strain(p, 0.5, dt); }),
-                  fmt::format("at time 0.5 s: particle {} at (", p.id[7])));
-  p.velocity_gradient[2][7] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(has(error_of([&] { host::check_strain(p, 0.5, dt); }), "strains by nan"));
+  host::BlockGradient<PlaneStrain> gradient{};
+  const auto check = [&](double slope) {
+    gradient.component[2][7] = slope;
+    return error_of([&] { host::check_strain(p, gradient, 3, 12, 0.5, dt); });
+  };
+  EXPECT_EQ(check(-0.99 * bound), "no error");
+  EXPECT_TRUE(has(check(-1.01 * bound), fmt::format("at time 0.5 s: particle {} at (", p.id[10])));
+  EXPECT_TRUE(has(check(std::numeric_limits<double>::quiet_NaN()), "strains by nan"));
 }
 
 TEST(Guard, NamesTheFastestParticleWhereEnergyIsMadeOrLost) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a particle costs in memory, by the sizes of the arrays and by what the process grows; and that a step asks for
+// none.
+#include "host/geometry.hpp"
+#include "host/simulation.hpp"
+#include "tests/verification/scenes.hpp"
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <omp.h>
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+namespace {
+
+using namespace host;
+
+constexpr double most_per_particle = 400; // bytes, without the neighbour lists
+
+/// A number of /proc/self/status, bytes.
+double status(const std::string& key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with(key + ":")) return 1024 * std::stod(line.substr(key.size() + 1));
+  ADD_FAILURE() << key;
+  return 0;
+}
+
+TEST(Memory, OfAParticleOfTheWholeColumnInThreeDimensions) {
+  const auto scene = tests::column_scene({.geometry = "three_dimensional\"\nsector = \"full"}, "memory");
+  const double before = status("VmRSS");
+  auto s = start_simulation<ThreeDimensional>(scene);
+  update_lists(s); // with the images of floor and gate: there are never more
+  const auto memory = memory_of(s);
+  const double count = s.particles.count, growth = status("VmRSS") - before;
+  EXPECT_GT(count, 45000);
+  EXPECT_LE(memory.data / count, most_per_particle);
+  EXPECT_LE((growth - double(memory.lists)) / count, most_per_particle) << "as the system sees it";
+  std::printf("%.0f bytes of data per particle, %.0f of lists; the process grew by %.0f\n",
+              memory.data / count, memory.lists / count, growth / count);
+}
+
+template <class Geometry> void expect_no_allocation(const tests::ColumnCase& c) {
+  auto s = start_simulation<Geometry>(tests::column_scene(c, "allocation"));
+  for (int k = 0; k < 200; ++k) step(s); // all that grows has grown
+  int steps = 0;
+  for (int k = 0; k < 100; ++k) {
+    const long rebuilds = s.rebuilds, before = allocations;
+    step(s);
+    if (s.rebuilds > rebuilds) continue;
+    ++steps;
+    EXPECT_EQ(allocations - before, 0) << "step " << s.steps;
+  }
+  EXPECT_GT(steps, 50);
+}
+
+TEST(Memory, AStepAllocatesNothing) {
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  expect_no_allocation<PlaneStrain>({.geometry = "plane_strain", .spacing = 0.004});
+  expect_no_allocation<Axisymmetric>({.spacing = 0.004});
+  expect_no_allocation<ThreeDimensional>(
+      {.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007});
+  omp_set_num_threads(threads);
+}
+
+} // namespace
