@@ -52,22 +52,61 @@ template <int D> double half_square(const double (&v)[D]) {
   return sum;
 }
 
+/// Adds what a wall of normal `n` took up when it changed a velocity.
+template <int D>
+void book(WallLoad& load, const std::array<double, D>& n, double mass, const double (&before)[D],
+          const double (&after)[D], double work) {
+  for (int a = 0; a < D; ++a) {
+    const double impulse = mass * (after[a] - before[a]);
+    load.impulse[a] -= impulse;
+    load.normal += n[a] * impulse;
+  }
+  load.work += work;
+}
+
 /// The contact of one particle (from `from` to `x` at `v`) with all mirrors, booked in `work`.
 template <int D>
 void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double mass, const double (&from)[D],
-                 double (&x)[D], double (&v)[D], Work& work) {
+                 double (&x)[D], double (&v)[D], Work& work, WallLoad (&load)[2]) {
   constexpr int up = D - 1;
   for (const Mirror& mirror : mirrors) {
     const double height = x[up], energy = half_square(v), falling = v[up];
+    double old[D];
+    std::copy_n(v, D, old);
     if (!faces(mirror, from, x)) continue;
     if (!hold_back(mirror, (mirror.wall ? contact_gap : axis_gap) * scene.spacing, x, v)) continue;
     ++work.guarded;
     work.wall += mass * (half_square(v) - energy + scene.gravity * (x[up] - height));
-    if (ends_below<D>(mirror)) continue;
-    const double before = half_square(v);
-    rub(scene.floor, v[up] - falling, v);
-    work.friction += mass * (half_square(v) - before);
+    if (!ends_below<D>(mirror)) {
+      const double before = half_square(v);
+      rub(scene.floor, v[up] - falling, v);
+      work.friction += mass * (half_square(v) - before);
+    }
+    if (mirror.wall)
+      book<D>(load[mirror.gate], normal_at<D>(mirror, x), mass, old, v,
+              mass * (half_square(v) - energy + scene.gravity * (x[up] - height)));
   }
+}
+
+/// The push of the images, whose vertical part is the floor's, and the horizontal one the gate's where it is near.
+template <int D>
+void book_push(const Mirror* gate, double reach, double mass, const double (&from)[D],
+               const double (&push)[D], const std::array<double, D - 1>& friction, const double (&mean)[D],
+               WallLoad (&load)[2]) {
+  constexpr int up = D - 1;
+  const bool at_gate = gate && faces(*gate, from, from) && depth_behind(*gate, from) < reach;
+  double none[D]{}, by_floor[D]{}, by_gate[D]{}, floor_work = mean[up] * push[up], gate_work = 0;
+  by_floor[up] = push[up];
+  for (int a = 0; a < up; ++a) {
+    by_floor[a] = friction[a] + (at_gate ? 0 : push[a]);
+    by_gate[a] = at_gate ? push[a] : 0;
+    floor_work += mean[a] * by_floor[a];
+    gate_work += mean[a] * by_gate[a];
+  }
+  std::array<double, D> upwards{};
+  upwards[up] = 1;
+  book<D>(load[0], upwards, mass, none, by_floor, mass * floor_work);
+  if (at_gate) book<D>(load[1], normal_at<D>(*gate, from), mass, none, by_gate, mass * gate_work);
 }
 
 } // namespace
@@ -82,15 +121,21 @@ void Work::add(const Work& other) {
 
 template <class Geometry>
 Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors, double reach,
-               double dt_before, double dt) {
+               double dt_before, double dt, std::span<WallLoad> loads) {
   constexpr int D = Geometry::dimension, up = D - 1;
   const double kick = 0.5 * (dt_before + dt);
-  std::vector<Work> of_cluster(p.clusters()); // summed in order below: the same for any number of threads
+  const auto gate = std::ranges::find_if(mirrors, &Mirror::gate);
+  const Mirror* the_gate = gate == mirrors.end() ? nullptr : &*gate;
+  struct Account {
+    Work work;
+    WallLoad load[2];
+  };
+  std::vector<Account> of_cluster(p.clusters()); // summed in order below: the same for any number of threads
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < p.clusters(); ++c)
     for (int i = c * lanes; i < std::min((c + 1) * lanes, p.count); ++i) {
-      Work& work = of_cluster[c];
-      double from[D], x[D], before[D], v[D];
+      auto& [work, load] = of_cluster[c];
+      double from[D], x[D], before[D], v[D], push[D], mean[D];
       std::array<double, up> by_friction{};
       for (int a = 0; a < D; ++a) {
         from[a] = p.position[a][i];
@@ -108,15 +153,21 @@ Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mir
         work.wall += impulse * kick * p.wall_acceleration[a][i];
         if (a < up) work.friction += impulse * by_friction[a];
         x[a] = from[a] + dt * v[a];
+        push[a] = kick * p.wall_acceleration[a][i];
+        mean[a] = 0.5 * (before[a] + v[a]);
       }
-      touch_walls(scene, mirrors, p.mass[i], from, x, v, work);
+      book_push<D>(the_gate, reach, p.mass[i], from, push, by_friction, mean, load);
+      touch_walls(scene, mirrors, p.mass[i], from, x, v, work, load);
       for (int a = 0; a < D; ++a) {
         p.velocity[a][i] = v[a];
         p.position[a][i] = x[a];
       }
     }
   Work all;
-  for (const Work& work : of_cluster) all.add(work);
+  for (const Account& account : of_cluster) {
+    all.add(account.work);
+    for (std::size_t w = 0; w < std::min<std::size_t>(loads.size(), 2); ++w) loads[w].add(account.load[w]);
+  }
   return all;
 }
 
@@ -137,11 +188,11 @@ template <class Geometry> double potential_energy(const Particles<Geometry>& p, 
 }
 
 template Work integrate(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double, double,
-                        double);
+                        double, std::span<WallLoad>);
 template Work integrate(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&, double, double,
-                        double);
+                        double, std::span<WallLoad>);
 template Work integrate(Particles<ThreeDimensional>&, const Scene&, const std::vector<Mirror>&, double,
-                        double, double);
+                        double, double, std::span<WallLoad>);
 template double kinetic_energy(const Particles<PlaneStrain>&);
 template double kinetic_energy(const Particles<Axisymmetric>&);
 template double kinetic_energy(const Particles<ThreeDimensional>&);

@@ -3,6 +3,7 @@
 // kind of force, so that the energy of a run can be closed.
 #pragma once
 #include "host/mirrors.hpp"
+#include <span>
 
 namespace host {
 
@@ -28,10 +29,11 @@ inline constexpr double axis_gap = 0.05;
 /// free fall is exact for any sequence of steps. Coulomb friction opposes the tangential velocity of a particle on the floor by
 /// at most `floor.friction` times what the floor pushes it up with. A particle that would come nearer to
 /// a wall than the contact gap stays there, loses its speed towards it, and on the floor as much
-/// tangential speed as friction takes for that impulse. Returns the work of the step.
+/// tangential speed as friction takes for that impulse. Returns the work of the step; adds to `loads` what floor
+/// (first) and gate (second) took up, as far as there is a place for them.
 template <class Geometry>
 Work integrate(Particles<Geometry>& particles, const Scene& scene, const std::vector<Mirror>& mirrors,
-               double reach, double dt_before, double dt);
+               double reach, double dt_before, double dt, std::span<WallLoad> loads = {});
 
 /// Kinetic energy and potential energy above the floor, J (plane strain: J/m).
 template <class Geometry> double kinetic_energy(const Particles<Geometry>& particles);

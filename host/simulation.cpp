@@ -4,6 +4,8 @@
 #include "host/geometry.hpp"
 #include "host/guard.hpp"
 #include "host/lattice.hpp"
+#include "host/wall_contact.hpp"
+#include "host/wall_images.hpp"
 #include <chrono>
 #include <fmt/format.h>
 
@@ -21,16 +23,29 @@ template <class Geometry, class F> void timed(Simulation<Geometry>& s, Stage sta
 template <class Geometry> void show_all_motion(Simulation<Geometry>& s) {
   show_motion(s.particles, s.records);
   reflect_motion(s.images, s.mirrors, s.records);
+  reflect_wall_motion(s.images, s.surfaces, s.mirrors.size(), s.records);
 }
 
 template <class Geometry> double list_reach(const Simulation<Geometry>& s) {
   return s.kernel.support + s.scene.numerics.skin * s.scene.spacing;
 }
 
+/// How far a wall of the list has moved since lists were made, m: its images move by twice as much.
+template <class Geometry> double wall_travel(const Simulation<Geometry>& s) {
+  double furthest = 0;
+  for (const Wall& wall : s.scene.walls) {
+    const auto now = wall.motion.displacement(s.time), listed = wall.motion.displacement(s.listed_time);
+    furthest = std::max(furthest, std::hypot(now[0] - listed[0], now[1] - listed[1], now[2] - listed[2]));
+  }
+  return furthest;
+}
+
 template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
   move_gate(s.mirrors, s.scene, s.time);
+  if (!s.surfaces.empty())
+    s.surfaces = surfaces_at<Geometry::dimension>(s.walls, s.scene.geometry, s.time, s.dt_before);
   const double half_skin = 0.5 * s.scene.numerics.skin * s.scene.spacing;
-  if (s.rebuilds == 0 || largest_displacement(s.particles, s.listed_position) > half_skin)
+  if (s.rebuilds == 0 || largest_displacement(s.particles, s.listed_position) + wall_travel(s) > half_skin)
     update_lists(s);
   else
     show_all_motion(s);
@@ -67,6 +82,18 @@ template <class Geometry> void choose_step(Simulation<Geometry>& s) {
 template <class Geometry> void show_all_stress(Simulation<Geometry>& s) {
   show_stress(s.particles, s.scene, s.kernel.h, s.records);
   reflect_stress(s.images, s.mirrors, s.records);
+  reflect_wall_stress(s.images, s.surfaces, s.mirrors.size(), s.scene, s.records);
+}
+
+template <class Geometry> Work move_particles(Simulation<Geometry>& s) {
+  constexpr int D = Geometry::dimension;
+  const double reach = s.kernel.support;
+  if (s.surfaces.empty())
+    return integrate(s.particles, s.scene, s.mirrors, reach, s.dt_before, s.dt, s.loads);
+  const auto ahead = surfaces_at<D>(s.walls, s.scene.geometry, s.time + s.dt, s.dt);
+  const WallsInStep<D> walls{s.walls, s.surfaces, ahead};
+  return integrate_among_walls(s.particles, s.scene, walls, int(s.mirrors.size()), reach, s.dt_before, s.dt,
+                               s.loads);
 }
 
 } // namespace
@@ -76,6 +103,9 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
       .scene = scene, .kernel = Kernel<Geometry::dimension>(scene.numerics.smoothing_length * scene.spacing)};
   s.particles = make_column<Geometry>(scene);
   s.mirrors = scene_mirrors(scene);
+  s.walls = all_walls(scene);
+  s.loads.resize(s.walls.size());
+  if (!scene.walls.empty()) s.surfaces = surfaces_at<Geometry::dimension>(s.walls, scene.geometry, 0, 0);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
   s.blocks.failure_state = scene.failure_state;
   s.blocks.tolerance = scene.numerics.wave_speed_tolerance;
@@ -92,12 +122,15 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
 template <class Geometry> void update_lists(Simulation<Geometry>& s) {
   sort_particles(s.particles, 0.25 * s.scene.spacing);
   s.images = find_images(s.particles, s.mirrors, list_reach(s));
+  if (!s.surfaces.empty())
+    add_wall_images(s.particles, s.surfaces, s.mirrors.size(), list_reach(s), s.images);
   const std::size_t size = s.particles.padded() + s.images.list.size();
   s.records.motion.resize(size);
   s.records.stress.resize(size);
   show_all_motion(s);
   find_neighbours(s.particles, s.images, s.records, list_reach(s), s.lists);
   s.listed_position = s.particles.position;
+  s.listed_time = s.time;
   ++s.rebuilds;
 }
 
@@ -132,8 +165,7 @@ template <class Geometry> void step(Simulation<Geometry>& s) {
     show_all_stress(s);
   });
   timed(s, Stage::momentum, [&] { update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene); });
-  timed(s, Stage::integrate,
-        [&] { s.work.add(integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt)); });
+  timed(s, Stage::integrate, [&] { s.work.add(move_particles(s)); });
   s.time += s.dt;
   s.dt_before = s.dt;
   ++s.steps;

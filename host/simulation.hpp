@@ -5,6 +5,7 @@
 #include "host/integrate.hpp"
 #include "host/momentum.hpp"
 #include "host/stress.hpp"
+#include "host/surfaces.hpp"
 
 namespace host {
 
@@ -17,6 +18,8 @@ template <class Geometry> struct Simulation {
   Kernel<Geometry::dimension> kernel;
   Particles<Geometry> particles{};
   std::vector<Mirror> mirrors{};
+  std::vector<Wall> walls{};                            ///< floor, gate and those of the list
+  std::vector<Surface<Geometry::dimension>> surfaces{}; ///< theirs, if the scene has a list of walls
   StressBlocks blocks{};
 
   // Valid until particles have moved half the skin.
@@ -24,11 +27,13 @@ template <class Geometry> struct Simulation {
   NeighbourLists lists{};
   Records<Geometry> records{};
   std::array<Array, Geometry::dimension> listed_position{};
+  double listed_time = 0; ///< s
 
   double time = 0;                            ///< s
   double dt = 0, dt_before = 0, first_dt = 0; ///< s: this step, the last, the first
   long steps = 0, rebuilds = 0;
   Work work{};
+  std::vector<WallLoad> loads{}; ///< one for each of `walls`
   double initial_potential_energy = 0;
   std::array<double, stage_names.size()> stage_seconds{};
 };
