@@ -86,14 +86,8 @@ template <class Geometry> void show_all_stress(Simulation<Geometry>& s) {
 }
 
 template <class Geometry> Work move_particles(Simulation<Geometry>& s) {
-  constexpr int D = Geometry::dimension;
-  const double reach = s.kernel.support;
-  if (s.surfaces.empty())
-    return integrate(s.particles, s.scene, s.mirrors, reach, s.dt_before, s.dt, s.loads);
-  const auto ahead = surfaces_at<D>(s.walls, s.scene.geometry, s.time + s.dt, s.dt);
-  const WallsInStep<D> walls{s.walls, s.surfaces, ahead};
-  return integrate_among_walls(s.particles, s.scene, walls, int(s.mirrors.size()), reach, s.dt_before, s.dt,
-                               s.loads);
+  if (!s.surfaces.empty()) return integrate_among_walls(s);
+  return integrate(s.particles, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt, s.loads);
 }
 
 } // namespace

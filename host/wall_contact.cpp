@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/wall_contact.hpp"
 #include "host/geometry.hpp"
+#include "host/wall_forces.hpp"
 #include <algorithm>
 
 namespace host {
@@ -16,13 +17,10 @@ template <int D> void add_to(Point<D>& a, double factor, const Point<D>& b) {
   for (int c = 0; c < D; ++c) a[c] += factor * b[c];
 }
 
-struct Reach {
-  int planes;    ///< of symmetry
-  double images; ///< m, of the images
-};
-
-struct Times {
-  double kick, dt; ///< s, over which velocity and position change
+/// Walls and where their surfaces are before and after the step.
+template <int D> struct WallsInStep {
+  const std::vector<Wall>& walls;
+  const std::vector<Surface<D>>&now, &ahead;
 };
 
 /// One particle on its way through the step.
@@ -62,11 +60,14 @@ Point<D> rub(const Wall& wall, const Surface<D>& s, const Point<D>& n, double no
 /// The surfaces near a particle, and what each does to its velocity; storage that serves many particles.
 template <int D> struct Pushes {
   std::vector<const Surface<D>*> surface;
+  std::vector<int> number; ///< of the surface
   std::vector<double> distance, shares;
   std::vector<Point<D>> normal, change;
+  SplitPush<D> split;
 
   void find(const std::vector<Surface<D>>& surfaces, const Point<D>& x, double reach) {
     surface.clear();
+    number.clear();
     distance.clear();
     normal.clear();
     for (const auto& s : surfaces) {
@@ -74,32 +75,55 @@ template <int D> struct Pushes {
       if (d < 0 || d > reach || !beside_shell(s, x)) continue;
       if (s.obstacle && body_distance(s, x) > reach) continue;
       surface.push_back(&s);
+      number.push_back(int(&s - surfaces.data()));
       distance.push_back(d);
       normal.push_back(normal_of(s, x));
     }
   }
 };
 
-/// Shares `push`, a change of velocity already made, out between the walls and adds the friction of each share, the
-/// sum of which is returned.
+/// Who pushes how much: fills `shares` and `change`, which add up to `push`.
+template <class Geometry, int D = Geometry::dimension>
+void find_shares(const Simulation<Geometry>& s, int i, double kick, const Point<D>& push, Pushes<D>& near) {
+  const std::size_t count = near.surface.size();
+  near.change.assign(count, {});
+  near.shares.assign(count, 0);
+  Point<D> rest = push;
+  if (count > 1) {
+    split_push(s, i, near.number, near.split);
+    Point<D> corners{};
+    add_to(corners, kick, near.split.by_corners);
+    share_out<D>(corners, near.normal, near.shares);
+    for (std::size_t k = 0; k < count; ++k) {
+      add_to(near.change[k], near.shares[k], near.normal[k]);
+      add_to(near.change[k], kick, near.split.by_surface[k]);
+      add_to(rest, -1, near.change[k]);
+    }
+
+  }
+  const auto nearest = std::ranges::min_element(near.distance) - near.distance.begin();
+  add_to(near.change[nearest], 1, rest);
+  for (std::size_t k = 0; k < count; ++k) near.shares[k] = dot(near.change[k], near.normal[k]);
+}
+
+/// Takes back what would pull, of a `push` already in the velocity: walls do not stick; and adds the friction of each
+/// share, the sum of which is returned.
 template <int D>
-Point<D> feel_push(const WallsInStep<D>& walls, const Point<D>& push, double spacing, Traveller<D>& t,
+Point<D> feel_push(const WallsInStep<D>& walls, double spacing, Point<D>& push, Traveller<D>& t,
                    Pushes<D>& near) {
   Point<D> friction{};
-  const auto rest = share_out<D>(push, near.normal, near.shares);
-  const auto nearest = std::ranges::min_element(near.distance) - near.distance.begin();
-  near.change.assign(near.surface.size(), {});
+  for (std::size_t k = 0; k < near.surface.size(); ++k) {
+    const double pull = std::min(near.shares[k], 0.0);
+    for (auto* vector : {&near.change[k], &push, &t.v}) add_to(*vector, -pull, near.normal[k]);
+  }
   for (std::size_t k = 0; k < near.surface.size(); ++k) {
     const auto& s = *near.surface[k];
     const Wall& wall = walls.walls[s.wall];
-    Point<D> rubbed{};
     // Without slip the lowest layer stands.
-    if (!wall.no_slip || near.distance[k] < spacing)
-      rubbed = rub(wall, s, near.normal[k], near.shares[k], t.v);
+    if (wall.no_slip && near.distance[k] >= spacing) continue;
+    const auto rubbed = rub(wall, s, near.normal[k], near.shares[k], t.v);
     add_to(friction, 1, rubbed);
-    add_to(near.change[k], near.shares[k], near.normal[k]);
     add_to(near.change[k], 1, rubbed);
-    if (long(k) == nearest) add_to(near.change[k], 1, rest);
   }
   return friction;
 }
@@ -161,31 +185,35 @@ void touch_all(const WallsInStep<D>& walls, int planes, const Scene& scene, Trav
 }
 
 template <class Geometry, int D = Geometry::dimension>
-void move(Particles<Geometry>& p, int i, const Scene& scene, const WallsInStep<D>& walls, const Reach& reach,
-          const Times& step, Work& work, std::vector<WallLoad>& loads, Pushes<D>& near) {
+void move(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, double kick, Work& work,
+          std::vector<WallLoad>& loads, Pushes<D>& near) {
+  auto& p = s.particles;
   Traveller<D> t{p.mass[i], {}, {}, {}, {}, work, loads};
   Point<D> push, friction{};
   for (int a = 0; a < D; ++a) {
     t.from[a] = p.position[a][i];
     t.before[a] = p.velocity[a][i];
-    push[a] = step.kick * p.wall_acceleration[a][i];
-    t.v[a] = t.before[a] + step.kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
-                                        p.wall_acceleration[a][i] - (a == D - 1 ? scene.gravity : 0));
+    push[a] = kick * p.wall_acceleration[a][i];
+    t.v[a] = t.before[a] + kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
+                                        p.wall_acceleration[a][i] - (a == D - 1 ? s.scene.gravity : 0));
   }
-  near.find(walls.now, t.from, reach.images);
-  if (!near.surface.empty()) friction = feel_push(walls, push, scene.spacing, t, near);
+  near.find(walls.now, t.from, s.kernel.support);
+  if (!near.surface.empty()) {
+    find_shares(s, i, kick, push, near);
+    friction = feel_push(walls, s.scene.spacing, push, t, near);
+  }
   Point<D> impulse;
   for (int a = 0; a < D; ++a) {
     impulse[a] = t.mass * 0.5 * (t.before[a] + t.v[a]);
-    work.stress += impulse[a] * step.kick * p.stress_acceleration[a][i];
-    work.viscosity += impulse[a] * step.kick * p.viscous_acceleration[a][i];
+    work.stress += impulse[a] * kick * p.stress_acceleration[a][i];
+    work.viscosity += impulse[a] * kick * p.viscous_acceleration[a][i];
     work.wall += impulse[a] * push[a];
     work.friction += impulse[a] * friction[a];
-    t.x[a] = t.from[a] + step.dt * t.v[a];
+    t.x[a] = t.from[a] + s.dt * t.v[a];
   }
   for (std::size_t k = 0; k < near.surface.size(); ++k)
     book(t, near.surface[k]->wall, near.normal[k], near.change[k], dot(impulse, near.change[k]));
-  touch_all(walls, reach.planes, scene, t);
+  touch_all(walls, int(s.mirrors.size()), s.scene, t);
   for (int a = 0; a < D; ++a) {
     p.velocity[a][i] = t.v[a];
     p.position[a][i] = t.x[a];
@@ -208,39 +236,35 @@ Point<D> share_out(const Point<D>& push, const std::vector<Point<D>>& normals, s
   return rest;
 }
 
-template <class Geometry>
-Work integrate_among_walls(Particles<Geometry>& p, const Scene& scene,
-                           const WallsInStep<Geometry::dimension>& walls, int symmetry_planes, double reach,
-                           double dt_before, double dt, std::vector<WallLoad>& loads) {
+template <class Geometry> Work integrate_among_walls(Simulation<Geometry>& s) {
+  constexpr int D = Geometry::dimension;
   // Sums by blocks of particles, then over the blocks in order: the same for any number of threads.
   constexpr int block = 512;
-  const int blocks = (p.count + block - 1) / block;
+  const int count = s.particles.count, blocks = (count + block - 1) / block;
+  const auto ahead = surfaces_at<D>(s.walls, s.scene.geometry, s.time + s.dt, s.dt);
+  const WallsInStep<D> walls{s.walls, s.surfaces, ahead};
   std::vector<Work> work(blocks);
-  std::vector<std::vector<WallLoad>> load(blocks, std::vector<WallLoad>(loads.size()));
+  std::vector<std::vector<WallLoad>> load(blocks, std::vector<WallLoad>(s.loads.size()));
 #pragma omp parallel
   {
-    Pushes<Geometry::dimension> near;
+    Pushes<D> near;
 #pragma omp for schedule(static)
     for (int b = 0; b < blocks; ++b)
-      for (int i = b * block; i < std::min((b + 1) * block, p.count); ++i)
-        move(p, i, scene, walls, {symmetry_planes, reach}, {0.5 * (dt_before + dt), dt}, work[b], load[b],
-             near);
+      for (int i = b * block; i < std::min((b + 1) * block, count); ++i)
+        move(s, i, walls, 0.5 * (s.dt_before + s.dt), work[b], load[b], near);
   }
   Work all;
   for (int b = 0; b < blocks; ++b) {
     all.add(work[b]);
-    for (std::size_t w = 0; w < loads.size(); ++w) loads[w].add(load[b][w]);
+    for (std::size_t w = 0; w < s.loads.size(); ++w) s.loads[w].add(load[b][w]);
   }
   return all;
 }
 
 template Point<2> share_out(const Point<2>&, const std::vector<Point<2>>&, std::vector<double>&);
 template Point<3> share_out(const Point<3>&, const std::vector<Point<3>>&, std::vector<double>&);
-template Work integrate_among_walls(Particles<PlaneStrain>&, const Scene&, const WallsInStep<2>&, int, double,
-                                    double, double, std::vector<WallLoad>&);
-template Work integrate_among_walls(Particles<Axisymmetric>&, const Scene&, const WallsInStep<2>&, int,
-                                    double, double, double, std::vector<WallLoad>&);
-template Work integrate_among_walls(Particles<ThreeDimensional>&, const Scene&, const WallsInStep<3>&, int,
-                                    double, double, double, std::vector<WallLoad>&);
+template Work integrate_among_walls(Simulation<PlaneStrain>&);
+template Work integrate_among_walls(Simulation<Axisymmetric>&);
+template Work integrate_among_walls(Simulation<ThreeDimensional>&);
 
 } // namespace host

@@ -2,30 +2,9 @@
 #include "host/wall_images.hpp"
 #include "host/geometry.hpp"
 #include <algorithm>
-#include <span>
 
 namespace host {
 namespace {
-
-/// The surfaces an image was reflected in, one after the other, and the record it began with.
-struct Chain {
-  static constexpr int longest = 4;
-  int root = 0, length = 0;
-  std::array<int, longest> surface{}; ///< the last reflection first
-  std::span<const int> all() const { return {surface.data(), std::size_t(length)}; }
-};
-
-Chain chain_of(const Images& images, std::size_t mirrors, int record) {
-  Chain chain;
-  chain.root = record;
-  while (chain.root >= images.first && chain.length < Chain::longest) {
-    const Image& image = images.list[chain.root - images.first];
-    if (image.mirror < int(mirrors)) break;
-    chain.surface[chain.length++] = image.mirror - int(mirrors);
-    chain.root = image.source;
-  }
-  return chain;
-}
 
 /// True if surface `s` has an image of sand at `x`: sand in front of it, where the surface exists; behind an edge of a
 /// body each of its surfaces has the part of the solid that is nearest to it.
@@ -147,6 +126,18 @@ std::size_t first_of_walls(const Images& images, std::size_t mirrors) {
 }
 
 } // namespace
+
+Chain chain_of(const Images& images, std::size_t mirrors, int record) {
+  Chain chain;
+  chain.root = record;
+  while (chain.root >= images.first && chain.length < Chain::longest) {
+    const Image& image = images.list[chain.root - images.first];
+    if (image.mirror < int(mirrors)) break;
+    chain.surface[chain.length++] = image.mirror - int(mirrors);
+    chain.root = image.source;
+  }
+  return chain;
+}
 
 template <class Geometry>
 void add_wall_images(const Particles<Geometry>& p, const std::vector<Surface<Geometry::dimension>>& surfaces,

@@ -5,8 +5,20 @@
 #pragma once
 #include "host/mirrors.hpp"
 #include "host/surfaces.hpp"
+#include <span>
 
 namespace host {
+
+/// The surfaces an image was reflected in, one after the other, and the record it began with.
+struct Chain {
+  static constexpr int longest = 4;
+  int root = 0, length = 0;
+  std::array<int, longest> surface{}; ///< the last reflection first
+  std::span<const int> all() const { return {surface.data(), std::size_t(length)}; }
+};
+
+/// That of a record; `mirrors` is the number of mirrors that are no surfaces.
+Chain chain_of(const Images& images, std::size_t mirrors, int record);
 
 /// Lists, behind the images that are there, those of all particles and images within `reach` of a surface. Their
 /// `mirror` counts on from `mirrors`.
