@@ -19,13 +19,14 @@ struct WallCase {
 
 /// A sand of the library, or an elastic one of density 1500 kg/m3 with K0 = 1.
 inline std::string sand(const std::string& name, double void_ratio) {
-  return fmt::format("[material]\nfile = \"{}/data/materials/{}.toml\"\nvoid_ratio = {}\n", SIMSAND_SOURCE_DIR,
-                     name, void_ratio);
+  return fmt::format("[material]\nfile = \"{}/data/materials/{}.toml\"\nvoid_ratio = {}\n",
+                     SIMSAND_SOURCE_DIR, name, void_ratio);
 }
 inline std::string elastic(double young, double poisson, double K0) {
-  return fmt::format("[material]\nlibrary = \"{}/libelastic_vumat.so\"\nname = \"elastic\"\nproperties = [{}, {}]\n"
-                     "state_variables = 0\ndensity = 1500.0\n[initial_stress]\nK0 = {}\n",
-                     SIMSAND_BINARY_DIR, young, poisson, K0);
+  return fmt::format(
+      "[material]\nlibrary = \"{}/libelastic_vumat.so\"\nname = \"elastic\"\nproperties = [{}, {}]\n"
+      "state_variables = 0\ndensity = 1500.0\n[initial_stress]\nK0 = {}\n",
+      SIMSAND_BINARY_DIR, young, poisson, K0);
 }
 
 inline std::string scene_text(const WallCase& c, const std::string& folder) {
