@@ -198,7 +198,10 @@ void move(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, double ki
                                         p.wall_acceleration[a][i] - (a == D - 1 ? s.scene.gravity : 0));
   }
   near.find(walls.now, t.from, s.kernel.support);
-  if (!near.surface.empty()) {
+  if (near.surface.empty()) { // behind an edge; walls out of reach do not push
+    add_to(t.v, -1, push);
+    push = {};
+  } else {
     find_shares(s, i, kick, push, near);
     friction = feel_push(walls, s.scene.spacing, push, t, near);
   }

@@ -36,6 +36,7 @@ bool has_place(const std::vector<Surface<D>>& surfaces, const Chain& chain, cons
       return beside_shell(other, root) && body_distance(other, x) < depth;
     });
   }
+  if (std::ranges::none_of(chain.all(), [&](int k) { return distance(surfaces[k], x) < 0; })) return false;
   return std::ranges::all_of(chain.all(), [&](int j) {
     auto seen = x;
     reflect(surfaces[j], seen);

@@ -31,7 +31,7 @@ double slide(double angle, double friction, const std::string& name) {
 }
 
 TEST(Incline, ABlockSlidesAsCoulombSays) {
-  for (const auto& [angle, friction] : {std::pair{30.0, 0.2}, {30.0, 0.0}, {45.0, 0.6}}) {
+  for (const auto& [angle, friction] : {std::pair{30.0, 0.2}, {30.0, 0.0}, {45.0, 0.5}}) {
     const double a = angle * std::numbers::pi / 180;
     const double wanted = g * (std::sin(a) - friction * std::cos(a));
     const double found = slide(angle, friction, fmt::format("slide_{}_{}", angle, friction));
@@ -43,7 +43,7 @@ TEST(Incline, ABlockSlidesAsCoulombSays) {
 
 TEST(Incline, ABlockSticksBelowTheAngleOfFriction) {
   const double found = slide(20, 0.5, "stick");
-  std::printf("stick %.5f\n", found);
+  std::printf("slope 20 deg, friction 0.5: %.5f m/s2, exact 0\n", found);
   EXPECT_NEAR(found, 0, 0.01 * g);
 }
 
@@ -156,9 +156,10 @@ TEST(Janssen, ARoughTubeCarriesTheSand) {
       base / weight, carried / weight, carried / side, friction, ratio, janssen / weight,
       100 * (base / janssen - 1));
   EXPECT_NEAR(base + carried, weight, 0.02 * weight);
-  EXPECT_NEAR(carried / side, friction, 0.02 * friction);
+  EXPECT_LT(carried / side, 1.001 * friction);
+  EXPECT_GT(carried / side, 0.9 * friction) << "the sand slides nearly everywhere";
   EXPECT_LT(base, 0.6 * weight);
-  EXPECT_NEAR(base, janssen, 0.1 * janssen);
+  EXPECT_NEAR(base, janssen, 0.05 * janssen);
 }
 
 /// Sand in flight: no stress, one velocity.
@@ -220,12 +221,14 @@ void expect_tight(const WallCase& c, const std::string& name, const host::WallVe
       error = std::max(error, std::abs(gained));
     }
     std::printf(" momentum not accounted for %.1e", error / size);
-    EXPECT_LT(error, 1e-9 * size);
+    // Pairs exchange momentum up to the strain of one step: volumes are those before it, densities those after.
+    EXPECT_LT(error, 1e-3 * size);
   }
   std::printf("\n");
 }
 
-const std::string small_steps = "step_factor = 0.1";
+/// A step in which the hardest impacts strain by less than the guard of the host allows.
+const std::string small_steps = "step_factor = 0.1", smallest_steps = "step_factor = 0.02";
 
 TEST(Tight, PlanesAndBoxesInPlaneStrain) {
   const std::string vessel = "[[wall]]\nname = \"vessel\"\nshape = \"box\"\nside = \"inside\"\nlower = "
@@ -240,8 +243,8 @@ TEST(Tight, PlanesAndBoxesInPlaneStrain) {
        .material = sand("TS", 0.4451),
        .walls = vessel,
        .spacing = 0.005,
-       .numerics = small_steps},
-      "tight_plane", {6, -8, 0}, 0.06, {"vessel", "ramp", "block"});
+       .numerics = smallest_steps},
+      "tight_plane", {6, -8, 0}, 0.03, {"vessel", "ramp", "block"});
 }
 
 TEST(Tight, TubesAndBoxesInAxisymmetry) {
@@ -259,7 +262,7 @@ TEST(Tight, TubesAndBoxesInAxisymmetry) {
                               .walls = walls,
                               .spacing = 0.005,
                               .numerics = small_steps},
-                             "tight_axisymmetric", {6, -8, 0}, 0.04, {"base", "post", "ring", "tube"});
+                             "tight_axisymmetric", {6, -8, 0}, 0.03, {"base", "post", "ring", "tube"});
 }
 
 TEST(Tight, AllShapesInThreeDimensions) {
@@ -270,15 +273,15 @@ TEST(Tight, AllShapesInThreeDimensions) {
       "0.02]\n"
       "lower = -1\nupper = 0.06\nfriction = 0.3\n"
       "[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.15\nfriction = 0\n"
-      "[[wall]]\nname = \"block\"\nshape = \"box\"\nside = \"outside\"\nlower = [-0.14, -0.05, -1]\n"
-      "upper = [-0.05, 0.05, 0.05]\nfriction = 0.3\n";
+      "[[wall]]\nname = \"block\"\nshape = \"box\"\nside = \"outside\"\nlower = [-0.07, -0.05, -1]\n"
+      "upper = [0.0, 0.05, 0.05]\nfriction = 0.3\n";
   expect_tight<ThreeDimensional>({.geometry = "three_dimensional\"\nsector = \"full",
                                   .column = "radius = 0.04\ndepth = 0.04\nheight = 0.03\nbase = 0.1",
                                   .material = sand("TS", 0.4451),
                                   .walls = walls,
                                   .spacing = 0.01,
                                   .numerics = small_steps},
-                                 "tight_solid", {5, 1, -8}, 0.05, {"slope", "post", "tube", "block"});
+                                 "tight_solid", {5, 1, -8}, 0.03, {"slope", "post", "tube", "block"});
 }
 
 TEST(Moving, APistonLiftsTheSand) {
