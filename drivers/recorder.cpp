@@ -33,7 +33,7 @@ const std::vector<host::Quantity> general_columns{{"time", "s"},
 template <class Geometry> std::vector<host::Quantity> series_columns(const host::Simulation<Geometry>& s) {
   auto columns = general_columns;
   for (const auto& wall : s.walls) {
-    for (const auto& [kind, unit] : {std::pair{"force", "N"}, std::pair{"impulse", "N s"}}) {
+    for (const auto& [kind, unit] : {std::pair{"force", "N"}, std::pair{"impulse", "N*s"}}) {
       for (int a = 0; a < Geometry::dimension; ++a)
         columns.push_back({fmt::format("wall_{}_{}_{}", wall.name, kind, axis_name<Geometry>(a)), unit});
       columns.push_back({fmt::format("wall_{}_normal_{}", wall.name, kind), unit});
