@@ -56,6 +56,23 @@ struct Scene {
   }
 };
 
+/// Mean forces on the walls in the last sample interval.
+std::string wall_lines(const StoredRun& run) {
+  constexpr std::string_view begin = "wall_", end = "_normal_force";
+  std::string text;
+  for (const auto& [column, values] : run.series) {
+    if (!column.name.starts_with(begin) || !column.name.ends_with(end) || values.empty()) continue;
+    const auto name = column.name.substr(begin.size(), column.name.size() - begin.size() - end.size());
+    std::string components;
+    for (const char axis : {'r', 'x', 'y', 'z'})
+      if (const double force = last(run, fmt::format("wall_{}_force_{}", name, axis)); !std::isnan(force))
+        components += fmt::format(", {} {:.6g}", axis, force);
+    text += fmt::format("{:<18}normal {:.6g}{} N, work {:.6g} J\n", "wall " + name, values.back(), components,
+                        last(run, fmt::format("wall_{}_work", name)));
+  }
+  return text;
+}
+
 std::string page(const StoredRun& run, const std::string& file) {
   const Scene scene(run.scene);
   std::string text;
@@ -80,6 +97,7 @@ std::string page(const StoredRun& run, const std::string& file) {
   number("kinetic energy", last(run, "kinetic_energy"), " J");
   number("potential energy", last(run, "potential_energy"), " J");
   number("energy imbalance", last(run, "energy_imbalance"), " of the initial potential energy");
+  text += wall_lines(run);
   number("final height", summary(run, "final_height"), " r0");
   number("runout", summary(run, "runout"), " r0");
   number("time to rest", summary(run, "time_to_rest"), " s");

@@ -173,6 +173,11 @@ StepReport advance(MaterialCaller& material, const MixedControl& control, double
     report.fraction = target;
     if (step / 2 < smallest) {
       report.converged = false;
+      if (report.finite && !report.refused) { // what is missing of the whole increment, not of its last part
+        const Increment whole{material, control,   options, point, to, (to - at) * duration,
+                              scale,    stiffness, report};
+        whole.note(whole.judged(Vector6::Zero(), point));
+      }
       return report;
     }
     ++report.cuts;

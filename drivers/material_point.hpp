@@ -26,8 +26,8 @@ struct StepReport {
   bool converged = true;
   bool finite = true;   ///< the material returned numbers
   bool refused = false; ///< the material reported failure
-  int restriction = 0;  ///< the one least satisfied, from 0
-  double residual = 0;  ///< of that restriction, in its own unit
+  int restriction = 0;  ///< of a failure: the one least satisfied at the end asked for, from 0
+  double residual = 0;  ///< what the last state reached is off by there, in its own unit
   double fraction = 0;  ///< of the stage, that could not be reached
 };
 

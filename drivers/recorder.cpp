@@ -11,33 +11,90 @@
 namespace drivers {
 namespace {
 
-const std::vector<host::Quantity> series_quantities{{"time", "s"},
-                                                    {"height", "m"},
-                                                    {"front_radius", "m"},
-                                                    {"kinetic_energy", "J"},
-                                                    {"potential_energy", "J"},
-                                                    {"work_stress", "J"},
-                                                    {"work_viscosity", "J"},
-                                                    {"work_wall", "J"},
-                                                    {"work_friction", "J"},
-                                                    {"internal_energy", "J"},
-                                                    {"inelastic_energy", "J"},
-                                                    {"energy_imbalance", "1"},
-                                                    {"step_size", "s"}};
-
-std::vector<double> as_row(const Sample& s) {
-  return {s.time,      s.height,        s.front,    s.kinetic,   s.potential, s.work.stress, s.work.viscosity,
-          s.work.wall, s.work.friction, s.internal, s.inelastic, s.imbalance, s.step_size};
+template <class Geometry> char axis_name(int a) {
+  return Geometry::dimension == 3 ? "xyz"[a] : (Geometry::hoop ? "rz"[a] : "xz"[a]);
 }
 
-Sample from_row(const std::vector<std::vector<double>>& columns, std::size_t row) {
+const std::vector<host::Quantity> general_columns{{"time", "s"},
+                                                  {"height", "m"},
+                                                  {"front_radius", "m"},
+                                                  {"kinetic_energy", "J"},
+                                                  {"potential_energy", "J"},
+                                                  {"work_stress", "J"},
+                                                  {"work_viscosity", "J"},
+                                                  {"work_wall", "J"},
+                                                  {"work_friction", "J"},
+                                                  {"internal_energy", "J"},
+                                                  {"inelastic_energy", "J"},
+                                                  {"energy_imbalance", "1"},
+                                                  {"step_size", "s"}};
+
+/// Those, then those of each wall.
+template <class Geometry> std::vector<host::Quantity> series_columns(const host::Simulation<Geometry>& s) {
+  auto columns = general_columns;
+  for (const auto& wall : s.walls) {
+    for (const auto& [kind, unit] : {std::pair{"force", "N"}, std::pair{"impulse", "N*s"}}) {
+      for (int a = 0; a < Geometry::dimension; ++a)
+        columns.push_back({fmt::format("wall_{}_{}_{}", wall.name, kind, axis_name<Geometry>(a)), unit});
+      columns.push_back({fmt::format("wall_{}_normal_{}", wall.name, kind), unit});
+    }
+    columns.push_back({fmt::format("wall_{}_work", wall.name), "J"});
+  }
+  return columns;
+}
+
+std::vector<double> as_row(const Sample& s, int dimension) {
+  std::vector<double> row{s.time,        s.height,         s.front,     s.kinetic,       s.potential,
+                          s.work.stress, s.work.viscosity, s.work.wall, s.work.friction, s.internal,
+                          s.inelastic,   s.imbalance,      s.step_size};
+  for (const WallSample& wall : s.walls) {
+    row.insert(row.end(), wall.force.begin(), wall.force.begin() + dimension);
+    row.push_back(wall.normal_force);
+    row.insert(row.end(), wall.load.impulse.begin(), wall.load.impulse.begin() + dimension);
+    row.insert(row.end(), {wall.load.normal, wall.load.work});
+  }
+  return row;
+}
+
+Sample from_row(const std::vector<std::vector<double>>& columns, std::size_t row, int dimension) {
   const auto v = [&](std::size_t c) { return columns[c][row]; };
-  return {v(0), v(1), v(2), v(3), v(4), {v(5), v(6), v(7), v(8)}, v(9), v(10), v(11), v(12)};
+  Sample s{v(0), v(1), v(2), v(3), v(4), {v(5), v(6), v(7), v(8)}, v(9), v(10), v(11), v(12), {}};
+  for (std::size_t c = general_columns.size(); c < columns.size(); c += 2 * dimension + 3) {
+    WallSample wall;
+    for (int a = 0; a < dimension; ++a) {
+      wall.force[a] = v(c + a);
+      wall.load.impulse[a] = v(c + dimension + 1 + a);
+    }
+    wall.normal_force = v(c + dimension);
+    wall.load.normal = v(c + 2 * dimension + 1);
+    wall.load.work = v(c + 2 * dimension + 2);
+    s.walls.push_back(wall);
+  }
+  return s;
+}
+
+/// The walls of a sample at `time` that follows `before`.
+std::vector<WallSample> wall_samples(const std::vector<host::WallLoad>& loads, double time,
+                                     const Sample* before) {
+  std::vector<WallSample> walls;
+  for (std::size_t w = 0; w < loads.size(); ++w) {
+    WallSample wall{loads[w], {}, 0};
+    if (before) {
+      const double dt = time - before->time;
+      for (int a = 0; a < 3; ++a)
+        wall.force[a] = (loads[w].impulse[a] - before->walls[w].load.impulse[a]) / dt;
+      wall.normal_force = (loads[w].normal - before->walls[w].load.normal) / dt;
+    }
+    walls.push_back(wall);
+  }
+  return walls;
 }
 
 /// Outline samples reach as far as grains of any deposit seen: three column heights past the column.
-double outline_reach(const host::Scene& scene) {
-  return scene.column.radius + 3 * scene.column.height;
+std::vector<double> outline_places(const host::Scene& scene) {
+  const double reach = scene.column.radius + 3 * scene.column.height, middle = scene.column.center[0];
+  if (scene.column.symmetric) return host::outline_radii(scene.spacing, std::abs(middle) + reach);
+  return host::outline_radii(scene.spacing, middle + reach, std::min(middle - reach, -scene.spacing));
 }
 
 std::filesystem::path result_path(const host::Scene& scene) {
@@ -74,8 +131,7 @@ double total_of(const host::Array& per_mass, const host::Array& mass, int count)
 
 template <class Geometry>
 Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
-    : abscissa(host::outline_radii(s.scene.spacing, outline_reach(s.scene))),
-      result(result_path(s.scene), header_of(s), series_quantities) {
+    : abscissa(outline_places(s.scene)), result(result_path(s.scene), header_of(s), series_columns(s)) {
   const auto& p = s.particles;
   const std::vector<host::Field> fields{{"mass", "kg", {view(p.mass, p.count)}},
                                         {"initial_position", "m", views(p.position, p.count)}};
@@ -86,14 +142,13 @@ Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
 
 template <class Geometry>
 Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s, const host::RunProgress& progress)
-    : abscissa(host::outline_radii(s.scene.spacing, outline_reach(s.scene))),
-      next_sample(progress.next_sample), next_snapshot(progress.next_snapshot),
-      last_snapshot(progress.last_snapshot),
-      result(result_path(s.scene), header_of(s), series_quantities, progress.result) {
-  if (progress.result.series.size() != series_quantities.size())
+    : abscissa(outline_places(s.scene)), next_sample(progress.next_sample),
+      next_snapshot(progress.next_snapshot), last_snapshot(progress.last_snapshot),
+      result(result_path(s.scene), header_of(s), series_columns(s), progress.result) {
+  if (progress.result.series.size() != series_columns(s).size())
     throw std::runtime_error(fmt::format("{}: its checkpoint has another time series", file()));
   for (std::size_t row = 0; row < progress.result.series.front().size(); ++row)
-    series.push_back(from_row(progress.result.series, row));
+    series.push_back(from_row(progress.result.series, row, Geometry::dimension));
   if (progress.rest_time >= 0) rest_time = progress.rest_time;
   result.outline_radii(abscissa);
 }
@@ -120,10 +175,12 @@ template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation
   now.imbalance = (now.kinetic + now.potential - s.initial_potential_energy - s.work.total()) /
                   s.initial_potential_energy;
   now.step_size = s.dt;
-  const auto row = as_row(now);
+  now.walls = wall_samples(s.loads, s.time, series.empty() ? nullptr : &series.back());
+  const auto row = as_row(now, Geometry::dimension);
   result.sample(row);
 
-  const bool cleared = s.scene.gate.lower_edge(s.time) > s.scene.column.height;
+  bool cleared = s.scene.gate.lower_edge(s.time) > s.scene.column.height;
+  for (const auto& wall : s.scene.walls) cleared &= s.time >= wall.motion.end();
   const bool still = !series.empty() && std::abs(now.height - series.back().height) < 5e-3 * s.scene.spacing;
   const bool slow = now.kinetic < s.scene.rest_fraction * s.initial_potential_energy;
   if (!rest_time && cleared && still && slow) rest_time = s.time;

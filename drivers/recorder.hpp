@@ -8,7 +8,14 @@
 
 namespace drivers {
 
-/// One row of the time series; units in `series_quantities`.
+/// What a wall has taken up since the start, and the mean force on it since the sample before.
+struct WallSample {
+  host::WallLoad load;
+  host::WallVector force{}; ///< N
+  double normal_force = 0;  ///< N, pressure times area
+};
+
+/// One row of the time series; units in `series_columns`.
 struct Sample {
   double time = 0, height = 0, front = 0;
   double kinetic = 0, potential = 0;
@@ -16,6 +23,7 @@ struct Sample {
   double internal = 0, inelastic = 0;
   double imbalance = 0; ///< (kinetic + potential - initial potential - work) / initial potential
   double step_size = 0;
+  std::vector<WallSample> walls; ///< one for each of the simulation's walls
 };
 
 template <class Geometry> class Recorder {

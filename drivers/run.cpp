@@ -137,7 +137,8 @@ void check_latest(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
   const Sample& last = recorder.samples().back();
   if (last.time != s.time || s.initial_potential_energy <= 0) return;
   const double e0 = s.initial_potential_energy;
-  const double made = last.kinetic + last.potential - e0 - std::max(last.work.wall, 0.0);
+  const double made =
+      last.kinetic + last.potential - e0 - std::max(last.work.wall, 0.0) - std::max(last.work.friction, 0.0);
   host::check_energy(s.particles, s.time, made / e0, last.imbalance);
 }
 

@@ -2,6 +2,7 @@
 #include "drivers/scene_file.hpp"
 #include "drivers/material_file.hpp"
 #include "drivers/toml_table.hpp"
+#include "drivers/wall_file.hpp"
 #include "host/output.hpp"
 #include "host/result_read.hpp"
 #include "vumat/parameters.hpp"
@@ -54,11 +55,18 @@ void read_initial_stress(const TomlTable& root, host::Scene& scene) {
   scene.earth_pressure_ratio = table.number("K0", {0, 10}, at_rest);
 }
 
-void read_walls(const TomlTable& root, host::Scene& scene) {
-  const auto friction = root.table("floor").number_or_word("friction", {0, 10}, {"no-slip"});
-  scene.floor.no_slip = std::holds_alternative<std::string>(friction);
-  if (!scene.floor.no_slip) scene.floor.friction = std::get<double>(friction);
-
+/// Where there is a list of walls a scene may do without floor and gate.
+void read_floor_and_gate(const TomlTable& root, bool has_walls, host::Scene& scene) {
+  scene.floor.present = !has_walls || root.has("floor");
+  if (scene.floor.present) {
+    const auto friction = root.table("floor").number_or_word("friction", {0, 10}, {"no-slip"});
+    scene.floor.no_slip = std::holds_alternative<std::string>(friction);
+    if (!scene.floor.no_slip) scene.floor.friction = std::get<double>(friction);
+  }
+  if (has_walls && !root.has("gate")) {
+    scene.gate.motion = host::GateMotion::remove;
+    return;
+  }
   const auto gate = root.table("gate");
   const auto motion = gate.text("motion", {"lift", "remove", "fixed"});
   scene.gate.motion = motion == "lift"     ? host::GateMotion::lift
@@ -105,14 +113,17 @@ host::Scene read_scene(const std::string& path, const std::vector<std::string>& 
   scene.spacing = general.number("spacing", {1e-6, 1e3});
   scene.gravity = general.number("gravity", {1e-3, 1e3}, 9.81);
   const auto column = root.table("column");
-  scene.column = {column.number("radius", {1e-6, 1e4}), column.number("height", {1e-6, 1e4})};
+  scene.column.radius = column.number("radius", {1e-6, 1e4});
+  scene.column.height = column.number("height", {1e-6, 1e4});
+  if (root.has("wall")) read_placement(column, scene);
   read_material(root, scene);
   scene.friction_angle = friction_angle(root, scene);
   read_initial_stress(root, scene);
-  read_walls(root, scene);
+  read_floor_and_gate(root, root.has("wall"), scene);
   read_numerics(root, scene);
   const auto end = root.table("end");
   scene.end_time = end.number("time", positive);
+  scene.walls = read_walls(root, scene);
   scene.rest_fraction = end.number("kinetic_energy_fraction", {0, 1}, 1e-6);
   const auto output = root.table("output");
   scene.output_folder = output.text("folder");
@@ -121,6 +132,7 @@ host::Scene read_scene(const std::string& path, const std::vector<std::string>& 
   scene.snapshot_interval = output.number("snapshot_interval", positive);
   scene.checkpoint_interval = output.number("checkpoint_interval", positive, scene.checkpoint_interval);
   scene.grain_diameter = output.number("grain_diameter", positive);
+  if (!scene.walls.empty()) check_walls(root, scene);
   root.finish();
   scene.resolved = root.resolved();
   return scene;

@@ -2,6 +2,7 @@
 // What a checkpoint holds, named once for writing and reading.
 #pragma once
 #include "host/checkpoint.hpp"
+#include <fmt/format.h>
 
 namespace host {
 
@@ -25,11 +26,20 @@ template <class Geometry, class F> void each_stored_item(Simulation<Geometry>& s
   item("work_friction", s.work.friction);
   item("work_guarded", s.work.guarded);
 
+  int wall = 0;
+  for (WallLoad& load : s.loads) {
+    const auto name = fmt::format("wall_{}_", wall++);
+    for (int a = 0; a < 3; ++a) item(fmt::format("{}impulse_{}", name, a), load.impulse[a]);
+    item(name + "normal", load.normal);
+    item(name + "work", load.work);
+  }
+
   item("particle_id", s.particles.id);
   int array = 0;
   s.particles.each_persistent([&](Array& a) { item("particle_" + std::to_string(array++), a); });
   item("moved", s.moved);
 
+  item("listed_time", s.listed_time);
   item("list_capacity", s.lists.capacity);
   item("list_entries", s.lists.entries);
   item("list_interior", s.lists.interior);

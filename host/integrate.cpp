@@ -52,22 +52,61 @@ template <int D> double half_square(const double (&v)[D]) {
   return sum;
 }
 
+/// Adds what a wall of normal `n` took up when it changed a velocity.
+template <int D>
+void book(WallLoad& load, const std::array<double, D>& n, double mass, const double (&before)[D],
+          const double (&after)[D], double work) {
+  for (int a = 0; a < D; ++a) {
+    const double impulse = mass * (after[a] - before[a]);
+    load.impulse[a] -= impulse;
+    load.normal += n[a] * impulse;
+  }
+  load.work += work;
+}
+
 /// The contact of one particle (from `from` to `x` at `v`) with all mirrors, booked in `work`.
 template <int D>
 void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double mass, const double (&from)[D],
-                 double (&x)[D], double (&v)[D], Work& work) {
+                 double (&x)[D], double (&v)[D], Work& work, std::array<WallLoad, 2>& load) {
   constexpr int up = D - 1;
   for (const Mirror& mirror : mirrors) {
     const double height = x[up], energy = half_square(v), falling = v[up];
+    double old[D];
+    std::copy_n(v, D, old);
     if (!faces(mirror, from, x)) continue;
     if (!hold_back(mirror, (mirror.wall ? contact_gap : axis_gap) * scene.spacing, x, v)) continue;
     ++work.guarded;
     work.wall += mass * (half_square(v) - energy + scene.gravity * (x[up] - height));
-    if (ends_below<D>(mirror)) continue;
-    const double before = half_square(v);
-    rub(scene.floor, v[up] - falling, v);
-    work.friction += mass * (half_square(v) - before);
+    if (!ends_below<D>(mirror)) {
+      const double before = half_square(v);
+      rub(scene.floor, v[up] - falling, v);
+      work.friction += mass * (half_square(v) - before);
+    }
+    if (mirror.wall)
+      book<D>(load[mirror.gate], normal_at<D>(mirror, x), mass, old, v,
+              mass * (half_square(v) - energy + scene.gravity * (x[up] - height)));
   }
+}
+
+/// The push of the images, whose vertical part is the floor's, and the horizontal one the gate's where it is near.
+template <int D>
+void book_push(const Mirror* gate, double reach, double mass, const double (&from)[D],
+               const double (&push)[D], const std::array<double, D - 1>& friction, const double (&mean)[D],
+               std::array<WallLoad, 2>& load) {
+  constexpr int up = D - 1;
+  const bool at_gate = gate && faces(*gate, from, from) && depth_behind(*gate, from) < reach;
+  double none[D]{}, by_floor[D]{}, by_gate[D]{}, floor_work = mean[up] * push[up], gate_work = 0;
+  by_floor[up] = push[up];
+  for (int a = 0; a < up; ++a) {
+    by_floor[a] = friction[a] + (at_gate ? 0 : push[a]);
+    by_gate[a] = at_gate ? push[a] : 0;
+    floor_work += mean[a] * by_floor[a];
+    gate_work += mean[a] * by_gate[a];
+  }
+  std::array<double, D> upwards{};
+  upwards[up] = 1;
+  book<D>(load[0], upwards, mass, none, by_floor, mass * floor_work);
+  if (at_gate) book<D>(load[1], normal_at<D>(*gate, from), mass, none, by_gate, mass * gate_work);
 }
 
 } // namespace
@@ -82,6 +121,7 @@ void Work::add(const Work& other) {
 
 void ClusterMotion::add(const ClusterMotion& other) {
   work.add(other.work);
+  for (std::size_t w = 0; w < load.size(); ++w) load[w].add(other.load[w]);
   square = std::max(square, other.square);
 }
 
@@ -91,10 +131,13 @@ ClusterMotion move_cluster(Particles<Geometry>& p, const Scene& scene, const std
                            int c) {
   constexpr int D = Geometry::dimension, up = D - 1;
   const double kick = 0.5 * (dt_before + dt);
+  const auto gate = std::ranges::find_if(mirrors, &Mirror::gate);
+  const Mirror* the_gate = gate == mirrors.end() ? nullptr : &*gate;
   ClusterMotion motion;
   Work& work = motion.work;
   for (int l = 0, i = c * lanes; l < lanes && i < p.count; ++l, ++i) {
-    double from[D], x[D], before[D], v[D], square = 0;
+    double from[D], x[D], before[D], v[D], push[D], mean[D], square = 0;
+    bool pushed = false;
     std::array<double, up> by_friction{};
     for (int a = 0; a < D; ++a) {
       from[a] = p.position[a][i];
@@ -109,11 +152,15 @@ ClusterMotion move_cluster(Particles<Geometry>& p, const Scene& scene, const std
       const double impulse = p.mass[i] * 0.5 * (before[a] + v[a]);
       work.stress += impulse * kick * by.stress[a][l];
       work.viscosity += impulse * kick * by.viscous[a][l];
-      work.wall += impulse * kick * by.wall[a][l];
+      push[a] = kick * by.wall[a][l];
+      mean[a] = 0.5 * (before[a] + v[a]);
+      pushed |= push[a] != 0;
+      work.wall += impulse * push[a];
       if (a < up) work.friction += impulse * by_friction[a];
       x[a] = from[a] + dt * v[a];
     }
-    touch_walls(scene, mirrors, p.mass[i], from, x, v, work);
+    if (pushed) book_push<D>(the_gate, reach, p.mass[i], from, push, by_friction, mean, motion.load);
+    touch_walls(scene, mirrors, p.mass[i], from, x, v, work, motion.load);
     for (int a = 0; a < D; ++a) {
       square += (x[a] - from[a]) * (x[a] - from[a]);
       p.velocity[a][i] = v[a];

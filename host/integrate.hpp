@@ -25,9 +25,10 @@ inline constexpr double contact_gap = 0.4;
 /// The same for the axis, which only keeps 1/r finite.
 inline constexpr double axis_gap = 0.05;
 
-/// Work on particles in one step, and the square of their largest displacement, m2.
+/// Work on particles in one step, what floor and gate took up, and the square of the largest displacement, m2.
 struct ClusterMotion {
   Work work;
+  std::array<WallLoad, 2> load{};
   double square = 0;
   void add(const ClusterMotion& other);
 };

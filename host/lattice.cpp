@@ -2,6 +2,7 @@
 #include "host/lattice.hpp"
 #include "host/disc.hpp"
 #include "host/geometry.hpp"
+#include "host/placement.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ Layer<2> make_row(const Scene& scene) {
   const int columns = int(std::lround(scene.column.radius / scene.spacing));
   const double dx = scene.column.radius / columns;
   Layer<2> layer;
-  for (int column = 0; column < columns; ++column) {
+  for (int column = scene.column.symmetric ? 0 : -columns; column < columns; ++column) {
     const double x = (column + 0.5) * dx;
     layer.places.push_back({{x}, dx});
   }
@@ -50,6 +51,23 @@ Layer<3> make_disc(const Scene& scene) {
   return layer;
 }
 
+/// A rectangle of squares, as far as it is simulated.
+Layer<3> make_rectangle(const Scene& scene) {
+  const double width[2] = {scene.column.radius, scene.column.depth};
+  const int planes = symmetry_planes(scene.sector);
+  int half[2];
+  double step[2];
+  for (int a = 0; a < 2; ++a) {
+    half[a] = std::max(int(std::lround(width[a] / scene.spacing)), 1);
+    step[a] = width[a] / half[a];
+  }
+  Layer<3> layer;
+  for (int y = planes > 1 ? 0 : -half[1]; y < half[1]; ++y)
+    for (int x = planes > 0 ? 0 : -half[0]; x < half[0]; ++x)
+      layer.places.push_back({{(x + 0.5) * step[0], (y + 0.5) * step[1]}, step[0] * step[1]});
+  return layer;
+}
+
 template <class Geometry> void check_size(const Scene& scene) {
   const double across = scene.column.radius / scene.spacing, up = scene.column.height / scene.spacing;
   constexpr bool solid = Geometry::dimension == 3;
@@ -60,7 +78,8 @@ template <class Geometry> void check_size(const Scene& scene) {
   if ((solid ? across * across * up : across * up) > most_particles)
     throw error(fmt::format("more than {:g} particles", most_particles), "");
   if (std::min(across, up) < 1 - 1e-9) throw error("scene without particles", " holds none");
-  if (solid && across < 2 * scene.numerics.smoothing_length + scene.numerics.skin + 1)
+  if (solid && scene.column.depth == 0 &&
+      across < 2 * scene.numerics.smoothing_length + scene.numerics.skin + 1)
     throw error("too few particles across the radius for three dimensions", "");
 }
 
@@ -73,7 +92,7 @@ template <class Geometry> Particles<Geometry> make_column(const Scene& scene) {
   if constexpr (D == 2)
     layer = make_row(scene);
   else
-    layer = make_disc(scene);
+    layer = scene.column.depth > 0 ? make_rectangle(scene) : make_disc(scene);
   // The lattice fills the column exactly: the spacing is rounded to a whole number of particles.
   const int rows = int(std::lround(scene.column.height / scene.spacing));
   const double dy = scene.column.height / rows;
@@ -93,6 +112,7 @@ template <class Geometry> Particles<Geometry> make_column(const Scene& scene) {
       for (std::size_t v = 0; v < p.state.size(); ++v) p.state[v][i] = scene.initial_state[v];
       ++i;
     }
+  if (scene.column.placed()) place_column(scene, p);
   return p;
 }
 

@@ -20,9 +20,9 @@ template <int D> struct Cells {
   int across;
   std::vector<std::vector<Point>> cell;
 
-  /// From 0 (three dimensions: -largest) to `largest`, m.
-  Cells(double width, double largest)
-      : width(width), lower(H == 1 ? 0 : -largest), across(int((largest - lower) / width) + 2),
+  /// From `smallest` (three dimensions: -largest) to `largest`, m.
+  Cells(double width, double smallest, double largest)
+      : width(width), lower(H == 1 ? smallest : -largest), across(int((largest - lower) / width) + 2),
         cell(H == 1 ? across : across * across) {}
 
   int along(double x) const { return int(std::max(0.0, x - lower) / width); }
@@ -38,11 +38,11 @@ template <int D> struct Cells {
 };
 
 template <class Geometry>
-Cells<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, double support, double largest,
-                                           Sector sector) {
+Cells<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, double support, double smallest,
+                                           double largest, Sector sector) {
   constexpr int D = Geometry::dimension, H = D - 1;
-  const int planes = D == 2 ? 1 : symmetry_planes(sector);
-  Cells<D> cells(support, largest);
+  const int planes = D == 2 ? smallest >= 0 : symmetry_planes(sector);
+  Cells<D> cells(support, smallest, largest);
   for (int i = 0; i < p.count; ++i) {
     const double volume = p.mass[i] / (p.density[i] * Geometry::depth * Geometry::weight(p.position[0][i]));
     for (int image = 0; image < 1 << (planes + 1); ++image) { // the lowest bit is the floor's
@@ -128,9 +128,9 @@ std::vector<double> azimuths(Sector sector) {
 
 } // namespace
 
-std::vector<double> outline_radii(double spacing, double largest) {
-  std::vector<double> radii(std::size_t(largest / (0.5 * spacing)) + 1);
-  for (std::size_t k = 0; k < radii.size(); ++k) radii[k] = 0.5 * spacing * double(k);
+std::vector<double> outline_radii(double spacing, double largest, double smallest) {
+  std::vector<double> radii(std::size_t((largest - smallest) / (0.5 * spacing)) + 1);
+  for (std::size_t k = 0; k < radii.size(); ++k) radii[k] = smallest + 0.5 * spacing * double(k);
   return radii;
 }
 
@@ -138,7 +138,7 @@ template <class Geometry>
 Profiles surface_profiles(const Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
                           std::span<const double> radii, Sector sector) {
   constexpr int D = Geometry::dimension;
-  const auto cells = sort_into_cells(p, kernel.support, radii.back(), sector);
+  const auto cells = sort_into_cells(p, kernel.support, radii.front(), radii.back(), sector);
   const auto angles = D == 2 ? std::vector{0.0} : azimuths(sector);
   Profiles profiles(angles.size(), std::vector<double>(radii.size()));
 #pragma omp parallel for schedule(dynamic, 8) collapse(2)

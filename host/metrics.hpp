@@ -8,8 +8,9 @@
 
 namespace host {
 
-/// Radii (plane strain: horizontal coordinates) at which an outline is sampled, m.
-std::vector<double> outline_radii(double spacing, double largest);
+/// Radii (plane strain: horizontal coordinates) at which an outline is sampled, m. Those that begin below 0 are of a
+/// column without symmetry.
+std::vector<double> outline_radii(double spacing, double largest, double smallest = 0);
 
 /// Heights of the surface, m, profiles[azimuth][radius]; one profile in the plane.
 using Profiles = std::vector<std::vector<double>>;

@@ -79,11 +79,16 @@ Mirror plane_of_symmetry(int axis) {
 
 } // namespace
 
+int planes_of_symmetry(const Scene& scene) {
+  if (scene.geometry == GeometryKind::three_dimensional) return symmetry_planes(scene.sector);
+  return scene.column.symmetric ? 1 : 0;
+}
+
 std::vector<Mirror> scene_mirrors(const Scene& scene) {
   const bool solid = scene.geometry == GeometryKind::three_dimensional;
   std::vector<Mirror> mirrors;
-  for (int axis = 0; axis < (solid ? symmetry_planes(scene.sector) : 1); ++axis)
-    mirrors.push_back(plane_of_symmetry(axis));
+  for (int axis = 0; axis < planes_of_symmetry(scene); ++axis) mirrors.push_back(plane_of_symmetry(axis));
+  if (!scene.walls.empty()) return mirrors; // then all walls are surfaces (host/wall_images.hpp)
   Mirror floor = plane_of_symmetry(solid ? 2 : 1);
   floor.wall = true;
   floor.weight_gradient = scene.bulk_density * scene.gravity;
@@ -143,6 +148,7 @@ void reflect_motion(const Images& images, const std::vector<Mirror>& mirrors, Re
   constexpr int D = Geometry::dimension;
   int at = images.first;
   for (const Image& image : images.list) {
+    if (image.mirror >= int(mirrors.size())) break; // behind a surface
     const Mirror& mirror = mirrors[image.mirror];
     auto& record = records.motion[at++];
     record = records.motion[image.source];
@@ -157,6 +163,7 @@ template <class Geometry>
 void reflect_stress(const Images& images, const std::vector<Mirror>& mirrors, Records<Geometry>& records) {
   int at = images.first;
   for (const Image& image : images.list) {
+    if (image.mirror >= int(mirrors.size())) break; // behind a surface
     const Mirror& mirror = mirrors[image.mirror];
     const auto& position = records.motion[image.source].position;
     auto& record = records.stress[at++];

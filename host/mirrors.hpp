@@ -58,7 +58,10 @@ struct Images {
   int first_wall = 0; ///< record index of the first image behind a wall
 };
 
-/// The mirrors of a scene at its start, planes of symmetry first.
+/// Number of planes of symmetry; the axis of axisymmetry is one.
+int planes_of_symmetry(const Scene& scene);
+
+/// The mirrors of a scene at its start, planes of symmetry first; only these where the scene has a list of walls.
 std::vector<Mirror> scene_mirrors(const Scene& scene);
 
 /// Moves the retaining wall to where it is at `time`, s.

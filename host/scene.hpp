@@ -2,6 +2,7 @@
 // What is to be simulated, in SI units: everything a run needs and nothing it computes.
 #pragma once
 #include "host/vumat_block.hpp"
+#include "host/wall.hpp"
 #include <limits>
 #include <optional>
 #include <string>
@@ -27,11 +28,19 @@ inline double fraction(Sector sector) {
 /// A column of radius (plane strain: half width) `radius` that stands on the floor at height 0,
 /// symmetric about the axis at coordinate 0.
 struct Column {
-  double radius = 0; ///< m
-  double height = 0; ///< m
+  double radius = 0;     ///< m
+  double height = 0;     ///< m
+  bool symmetric = true; ///< plane strain: the half x >= 0 is simulated; false: all of it
+  double depth =
+      0; ///< m, half width along y of a cuboid in three dimensions, `radius` along x; 0: a cylinder
+  std::array<double, 2> center{}; ///< m, horizontal place of the middle of its base
+  double base = 0;                ///< m, height of the middle of its base
+  double tilt = 0;                ///< degrees, turned about that point from x towards z
+  bool placed() const { return center[0] != 0 || center[1] != 0 || base != 0 || tilt != 0; }
 };
 
 struct Floor {
+  bool present = true;
   bool no_slip = false;
   double friction = 0; ///< Coulomb coefficient where slip is allowed
 };
@@ -76,6 +85,7 @@ struct Scene {
   double friction_angle = 0;       ///< degrees, critical state; 0 where the material has none
   Floor floor;
   Gate gate;
+  std::vector<Wall> walls; ///< beside floor and gate
   Numerics numerics;
   double end_time = 0;        ///< s
   double rest_fraction = 0;   ///< at rest when kinetic energy / initial potential energy is below it

@@ -3,6 +3,8 @@
 #include "host/corotational.hpp"
 #include "host/geometry.hpp"
 #include "host/lattice.hpp"
+#include "host/wall_contact.hpp"
+#include "host/wall_images.hpp"
 #include <chrono>
 #include <fmt/format.h>
 
@@ -20,16 +22,29 @@ template <class Geometry, class F> void timed(Simulation<Geometry>& s, Stage sta
 template <class Geometry> void show_all_motion(Simulation<Geometry>& s) {
   show_motion(s.particles, s.records);
   reflect_motion(s.images, s.mirrors, s.records);
+  reflect_wall_motion(s.images, s.surfaces, s.mirrors.size(), s.records);
 }
 
 template <class Geometry> double list_reach(const Simulation<Geometry>& s) {
   return s.kernel.support + s.scene.numerics.skin * s.scene.spacing;
 }
 
+/// How far a wall of the list has moved since lists were made, m: its images move by twice as much.
+template <class Geometry> double wall_travel(const Simulation<Geometry>& s) {
+  double furthest = 0;
+  for (const Wall& wall : s.scene.walls) {
+    const auto now = wall.motion.displacement(s.time), listed = wall.motion.displacement(s.listed_time);
+    furthest = std::max(furthest, std::hypot(now[0] - listed[0], now[1] - listed[1], now[2] - listed[2]));
+  }
+  return furthest;
+}
+
 template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
   move_gate(s.mirrors, s.scene, s.time);
+  if (!s.surfaces.empty())
+    s.surfaces = surfaces_at<Geometry::dimension>(s.walls, s.scene.geometry, s.time, s.dt_before);
   const double half_skin = 0.5 * s.scene.numerics.skin * s.scene.spacing;
-  if (s.rebuilds == 0 || s.moved > half_skin)
+  if (s.rebuilds == 0 || s.moved + wall_travel(s) > half_skin)
     update_lists(s);
   else
     show_all_motion(s);
@@ -75,6 +90,16 @@ template <class Geometry> void choose_step(Simulation<Geometry>& s) {
         s.time, s.dt, s.first_dt, s.particles.id[at], fmt::join(place, ", "), fastest));
 }
 
+/// Adds to the loads of floor and gate, or to those of all walls.
+template <class Geometry> ClusterMotion move_particles(Simulation<Geometry>& s) {
+  if (!s.surfaces.empty()) return move_among_walls(s);
+  const auto motion =
+      move(s.particles, s.kernel, s.lists, s.scene, s.mirrors, s.dt_before, s.dt, s.records, s.motions);
+  for (std::size_t w = 0; w < std::min(s.loads.size(), motion.load.size()); ++w)
+    s.loads[w].add(motion.load[w]);
+  return motion;
+}
+
 /// Room for `size` records; none of the old ones is kept.
 template <class Record> void make_room(std::vector<Record>& records, std::size_t size) {
   if (size > records.capacity()) {
@@ -91,6 +116,9 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
       .scene = scene, .kernel = Kernel<Geometry::dimension>(scene.numerics.smoothing_length * scene.spacing)};
   s.particles = make_column<Geometry>(scene);
   s.mirrors = scene_mirrors(scene);
+  s.walls = all_walls(scene);
+  s.loads.resize(s.walls.size());
+  if (!scene.walls.empty()) s.surfaces = surfaces_at<Geometry::dimension>(s.walls, scene.geometry, 0, 0);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
   s.blocks.failure_state = scene.failure_state;
   s.blocks.tolerance = scene.numerics.wave_speed_tolerance;
@@ -100,7 +128,8 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   // An increment without strain, so that the material's own initial state is there from the start.
   constexpr double instant = 1e-12; // s
   update_stress(s.particles, scene.material, {instant, instant, instant}, s.blocks);
-  s.particles.each_of_stages([](Array& a) { Array().swap(a); }); // a step needs none
+  if (s.surfaces.empty())
+    s.particles.each_of_stages([](Array& a) { Array().swap(a); }); // a step needs none but among walls
   s.initial_potential_energy = potential_energy(s.particles, scene.gravity);
   return s;
 }
@@ -108,12 +137,15 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
 template <class Geometry> void update_lists(Simulation<Geometry>& s) {
   sort_particles(s.particles, 0.25 * s.scene.spacing);
   s.images = find_images(s.particles, s.mirrors, list_reach(s));
+  if (!s.surfaces.empty())
+    add_wall_images(s.particles, s.surfaces, s.mirrors.size(), list_reach(s), s.images);
   const std::size_t size = s.particles.padded() + s.images.list.size();
   make_room(s.records.motion, size);
   make_room(s.records.stress, size);
   show_all_motion(s);
   find_neighbours(s.particles, s.images, s.records, list_reach(s), s.lists);
   s.moved = 0;
+  s.listed_time = s.time;
   ++s.rebuilds;
 }
 
@@ -137,10 +169,10 @@ template <class Geometry> void step(Simulation<Geometry>& s) {
     const Increment increment{s.time + s.dt, s.time + s.dt, s.dt};
     deform(s.particles, s.kernel, s.lists, s.scene, increment, s.blocks, s.records);
     reflect_stress(s.images, s.mirrors, s.records);
+    reflect_wall_stress(s.images, s.surfaces, s.mirrors.size(), s.scene, s.records);
   });
   timed(s, Stage::motion, [&] {
-    const auto motion =
-        move(s.particles, s.kernel, s.lists, s.scene, s.mirrors, s.dt_before, s.dt, s.records, s.motions);
+    const auto motion = move_particles(s);
     s.work.add(motion.work);
     s.moved += std::sqrt(motion.square);
   });

@@ -3,6 +3,7 @@
 #pragma once
 #include "host/gradient.hpp"
 #include "host/passes.hpp"
+#include "host/surfaces.hpp"
 
 namespace host {
 
@@ -15,18 +16,22 @@ template <class Geometry> struct Simulation {
   Kernel<Geometry::dimension> kernel;
   Particles<Geometry> particles{};
   std::vector<Mirror> mirrors{};
+  std::vector<Wall> walls{};                            ///< floor, gate and those of the list
+  std::vector<Surface<Geometry::dimension>> surfaces{}; ///< theirs, if the scene has a list of walls
   StressBlocks blocks{};
 
   // Valid until particles have moved half the skin.
   Images images{};
   NeighbourLists lists{};
   Records<Geometry> records{};
-  double moved = 0; ///< m, bound of what any particle has moved since
+  double moved = 0;       ///< m, bound of what any particle has moved since
+  double listed_time = 0; ///< s, when they were made
 
   double time = 0;                            ///< s
   double dt = 0, dt_before = 0, first_dt = 0; ///< s: this step, the last, the first
   long steps = 0, rebuilds = 0;
   Work work{};
+  std::vector<WallLoad> loads{}; ///< one for each of `walls`
   double initial_potential_energy = 0;
   std::array<double, stage_names.size()> stage_seconds{};
   std::vector<ClusterMotion> motions{}; ///< of the last step

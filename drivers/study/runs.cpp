@@ -28,7 +28,7 @@ bool is_done(const StudyRun& run, const host::Scene& scene) {
 }
 
 Job job_of(const StudyRun& run, const host::Scene& scene) {
-  const auto& [radius, height] = scene.column;
+  const double radius = scene.column.radius, height = scene.column.height;
   Job job{run.name,
           {fs::read_symlink("/proc/self/exe").string(), "run", run.scene, "--threads", "1", "--quiet"},
           run.folder + "/run.log",

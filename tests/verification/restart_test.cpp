@@ -102,8 +102,9 @@ const Values& whole() {
 }
 
 /// A run in `cut` that is told to stop as soon as it has a checkpoint and a snapshot after that.
-void interrupt(const Program& program, int signal, const std::string& options = "-q -t 1") {
-  program.write("scene.toml", scene());
+void interrupt(const Program& program, int signal, const std::string& options = "-q -t 1",
+               const std::string& text = scene()) {
+  program.write("scene.toml", text);
   fs::remove_all(program.folder / "cut");
   const auto child = program.start("run " + options + " scene.toml -o cut");
   for (int wait = 0; wait < 2000 && !fs::exists(program.folder / "cut/checkpoint_previous.h5"); ++wait)
@@ -137,6 +138,50 @@ TEST(Restart, AfterASignalOnOneAndTwoThreadsEveryBitIsTheSame) {
   const auto again = program.run("run -q --resume cut");
   EXPECT_EQ(again.status, 0);
   EXPECT_EQ(again.out, "cut: the run is complete\n");
+}
+
+/// The same column on a rough plane, in a tube that lifts, with a block that comes down.
+std::string scene_with_walls() {
+  auto text = scene();
+  const auto from = text.find("[floor]"), to = text.find("[end]");
+  return text.replace(from, to - from, R"([[wall]]
+name = "ground"
+shape = "plane"
+point = [0, 0]
+normal = [0, 1]
+friction = "no-slip"
+[[wall]]
+name = "tube"
+shape = "cylinder"
+side = "inside"
+radius = 0.05
+lower = 0
+friction = 0.2
+velocity = [0, 0.8]
+[[wall]]
+name = "ring"
+shape = "box"
+side = "outside"
+lower = [0.075, 0.03]
+upper = [0.1, 0.06]
+friction = 0.4
+times = [0, 0.05, 0.1]
+velocity_z = [0, -0.2, 0]
+)");
+}
+
+TEST(Restart, AmongMovingWallsEveryBitIsTheSame) {
+  const Program program("restart_walls");
+  program.write("scene.toml", scene_with_walls());
+  ASSERT_EQ(program.run("run -q -t 1 scene.toml").status, 0) << program.content("err");
+  const auto wanted = content_of(program.folder / "whole/result.h5");
+  EXPECT_TRUE(wanted.contains("/series/wall_ring_force_z"));
+  interrupt(program, SIGTERM, "-q -t 2", scene_with_walls());
+  fs::copy(program.folder / "cut", program.folder / "two", fs::copy_options::recursive);
+  EXPECT_EQ(program.run("run -q -t 1 --resume cut").status, 0) << program.content("err");
+  EXPECT_EQ(program.run("run -q -t 2 --resume two").status, 0) << program.content("err");
+  for (const auto* folder : {"cut", "two"}) expect_same(program.folder / folder / "result.h5", wanted);
+  EXPECT_NE(program.run("info two/result.h5").out.find("wall ring"), std::string::npos);
 }
 
 TEST(Restart, AfterKillsAtRandomMomentsNothingIsLostBeforeTheCheckpoint) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes with walls, written as a user would write them, and what is measured on them.
+#pragma once
+#include "host/geometry.hpp"
+#include "host/simulation.hpp"
+#include "tests/verification/scenes.hpp"
+#include <cmath>
+#include <numbers>
+
+namespace tests {
+
+inline constexpr double g = 9.81;
+
+struct WallCase {
+  std::string geometry = "plane_strain", column, material, walls;
+  double spacing = 0.01, end_time = 10;
+  std::string numerics = "";
+};
+
+/// A sand of the library, or an elastic one of density 1500 kg/m3 with K0 = 1.
+inline std::string sand(const std::string& name, double void_ratio) {
+  return fmt::format("[material]\nfile = \"{}/data/materials/{}.toml\"\nvoid_ratio = {}\n",
+                     SIMSAND_SOURCE_DIR, name, void_ratio);
+}
+inline std::string elastic(double young, double poisson, double K0) {
+  return fmt::format(
+      "[material]\nlibrary = \"{}/libelastic_vumat.so\"\nname = \"elastic\"\nproperties = [{}, {}]\n"
+      "state_variables = 0\ndensity = 1500.0\n[initial_stress]\nK0 = {}\n",
+      SIMSAND_BINARY_DIR, young, poisson, K0);
+}
+
+inline std::string scene_text(const WallCase& c, const std::string& folder) {
+  return fmt::format("[scene]\ngeometry = \"{}\"\nspacing = {}\n[column]\n{}\n{}\n{}\n[end]\ntime = {}\n"
+                     "kinetic_energy_fraction = 0\n[output]\nfolder = \"{}\"\nsample_interval = 0.01\n"
+                     "snapshot_interval = 0.1\ngrain_diameter = 0.003\n[numerics]\n{}\n",
+                     c.geometry, c.spacing, c.column, c.material, c.walls, c.end_time, folder, c.numerics);
+}
+
+inline host::Scene wall_scene(const WallCase& c, const std::string& name) {
+  const auto folder = fresh_folder(name), path = folder + "/scene.toml";
+  std::ofstream(path) << scene_text(c, folder);
+  return drivers::read_scene(path);
+}
+
+/// Mass of all particles, kg.
+template <class Geometry> double mass_of(const host::Particles<Geometry>& p) {
+  double sum = 0;
+  for (int i = 0; i < p.count; ++i) sum += p.mass[i];
+  return sum;
+}
+
+/// Momentum of all particles, N s.
+template <class Geometry> host::WallVector momentum_of(const host::Particles<Geometry>& p) {
+  host::WallVector sum{};
+  for (int i = 0; i < p.count; ++i)
+    for (int a = 0; a < Geometry::dimension; ++a) sum[a] += p.mass[i] * p.velocity[a][i];
+  return sum;
+}
+
+template <class Geometry> void run_until(host::Simulation<Geometry>& s, double time) {
+  while (s.time < time) host::step(s);
+}
+
+/// Mean force on a wall over the time of `f`, N; the last entry is the normal one.
+struct MeanForce {
+  host::WallVector force{};
+  double normal = 0;
+};
+template <class Geometry> MeanForce mean_force(host::Simulation<Geometry>& s, int wall, double duration) {
+  const auto before = s.loads[wall];
+  const double start = s.time;
+  run_until(s, start + duration);
+  MeanForce mean;
+  for (int a = 0; a < 3; ++a)
+    mean.force[a] = (s.loads[wall].impulse[a] - before.impulse[a]) / (s.time - start);
+  mean.normal = (s.loads[wall].normal - before.normal) / (s.time - start);
+  return mean;
+}
+
+} // namespace tests

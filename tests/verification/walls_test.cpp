@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Walls against closed forms: a block on an incline, loads at rest and in a rough tube, momentum, tightness, motion.
+#include "tests/verification/walls_fixture.hpp"
+
+namespace {
+
+using namespace tests;
+using host::Axisymmetric, host::PlaneStrain, host::ThreeDimensional;
+
+/// A block of 16 by 5 particles on a slope: its acceleration down the slope from 0.1 s on, mean of 0.4 s.
+double slide(double angle, double friction, const std::string& name) {
+  const double a = angle * std::numbers::pi / 180;
+  auto s = host::start_simulation<PlaneStrain>(wall_scene(
+      {.column =
+           fmt::format("radius = 0.08\nheight = 0.05\nsymmetric = false\nbase = 1.0\ntilt = {}", -angle),
+       .material = elastic(2e5, 0.2, 0.25),
+       .walls =
+           fmt::format("[[wall]]\nname = \"slope\"\nshape = \"plane\"\npoint = [0, 1.0]\nnormal = [{}, {}]\n"
+                       "friction = {}\n",
+                       std::sin(a), std::cos(a), friction)},
+      name));
+  const double mass = mass_of(s.particles);
+  const auto speed = [&] {
+    const auto m = momentum_of(s.particles);
+    return (m[0] * std::cos(a) - m[1] * std::sin(a)) / mass;
+  };
+  run_until(s, 0.1);
+  const double start = s.time, before = speed();
+  run_until(s, start + 0.4);
+  return (speed() - before) / (s.time - start);
+}
+
+TEST(Incline, ABlockSlidesAsCoulombSays) {
+  for (const auto& [angle, friction] : {std::pair{30.0, 0.2}, {30.0, 0.0}, {45.0, 0.5}}) {
+    const double a = angle * std::numbers::pi / 180;
+    const double wanted = g * (std::sin(a) - friction * std::cos(a));
+    const double found = slide(angle, friction, fmt::format("slide_{}_{}", angle, friction));
+    EXPECT_NEAR(found, wanted, 0.01 * wanted);
+    std::printf("slope %g deg, friction %g: %.4f m/s2, exact %.4f (%.2f %%)\n", angle, friction, found,
+                wanted, 100 * (found / wanted - 1));
+  }
+}
+
+TEST(Incline, ABlockSticksBelowTheAngleOfFriction) {
+  const double found = slide(20, 0.5, "stick");
+  std::printf("slope 20 deg, friction 0.5: %.5f m/s2, exact 0\n", found);
+  EXPECT_NEAR(found, 0, 0.01 * g);
+}
+
+/// Walls of a vessel in each geometry, smooth.
+const std::string smooth_base =
+    "[[wall]]\nname = \"base\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\n"
+    "friction = 0\n";
+std::string smooth_tube(const std::string& radius) {
+  return "[[wall]]\nname = \"side\"\nshape = \"cylinder\"\nside = \"inside\"\nfriction = 0\nradius = " +
+         radius + "\n";
+}
+
+/// Loads on base (first wall) and side (second) against weight and K0 rho g h^2 / 2 on `width` of side.
+template <class Geometry>
+void expect_hydrostatic(const WallCase& c, const std::string& name, double width, double settle = 0.05) {
+  auto s = host::start_simulation<Geometry>(wall_scene(c, name));
+  run_until(s, settle);
+  const auto before = s.loads;
+  const double start = s.time;
+  run_until(s, start + 0.05);
+  const auto load = [&](std::size_t wall, auto part) {
+    return (part(s.loads[wall]) - part(before[wall])) / (s.time - start);
+  };
+  const auto normal = [](const host::WallLoad& l) { return l.normal; };
+  double all = 0;
+  for (std::size_t w = 0; w < s.walls.size(); ++w)
+    all -= load(w, [](const host::WallLoad& l) { return l.impulse[Geometry::dimension - 1]; });
+  const double weight = mass_of(s.particles) * g, height = s.scene.column.height;
+  const double side = s.scene.earth_pressure_ratio * s.scene.bulk_density * g * height * height / 2 * width;
+  std::printf("%s: vertical load / weight %.5f, base alone %.5f, side / (K0 rho g h^2 / 2) %.5f\n",
+              name.c_str(), all / weight, load(0, normal) / weight, load(1, normal) / side);
+  EXPECT_NEAR(all, weight, 0.01 * weight);
+  EXPECT_NEAR(load(0, normal), weight, 0.01 * weight);
+  EXPECT_NEAR(load(1, normal), side, 0.01 * side);
+}
+
+TEST(Hydrostatic, LoadsOfAPlaneLayer) {
+  expect_hydrostatic<PlaneStrain>({.column = "radius = 0.1\nheight = 0.2",
+                                   .material = elastic(1e5, 0.45, 0.45 / 0.55),
+                                   .walls = smooth_base + smooth_tube("0.1")},
+                                  "hydrostatic_elastic", 1);
+}
+
+TEST(Hydrostatic, LoadsOfSandInATube) {
+  expect_hydrostatic<Axisymmetric>({.geometry = "axisymmetric",
+                                    .column = "radius = 0.05\nheight = 0.05",
+                                    .material = sand("TS", 0.4451),
+                                    .walls = smooth_base + smooth_tube("0.05"),
+                                    .spacing = 0.0025},
+                                   "hydrostatic_tube", 2 * std::numbers::pi * 0.05);
+}
+
+TEST(Hydrostatic, LoadsOfSandInABox) {
+  const std::string planes =
+      "[[wall]]\nname = \"base\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction = 0\n"
+      "[[wall]]\nname = \"box\"\nshape = \"box\"\nside = \"inside\"\nlower = [-0.06, -0.05, -1]\n"
+      "upper = [0.06, 0.05, 1]\nfriction = 0\n";
+  expect_hydrostatic<ThreeDimensional>({.geometry = "three_dimensional\"\nsector = \"quarter",
+                                        .column = "radius = 0.06\ndepth = 0.05\nheight = 0.1",
+                                        .material = sand("SS", 0.58),
+                                        .walls = planes,
+                                        .spacing = 0.005},
+                                       "hydrostatic_box", 0.06 + 0.05, 0.02);
+}
+
+/// Mean vertical stress of all particles, Pa, weighted by volume; compression positive.
+double mean_vertical(const host::Particles<Axisymmetric>& p) {
+  double sum = 0, volume = 0;
+  for (int i = 0; i < p.count; ++i) {
+    const double v = p.mass[i] / p.density[i];
+    sum -= p.stress[1][i] * v;
+    volume += v;
+  }
+  return sum / volume;
+}
+
+TEST(Janssen, ARoughTubeCarriesTheSand) {
+  // The base sinks by 1.5 mm, so that the sand slides down and the wall's friction is mobilised.
+  constexpr double radius = 0.02, height = 0.12, friction = 0.4;
+  auto s = host::start_simulation<Axisymmetric>(wall_scene(
+      {.geometry = "axisymmetric",
+       .column = "radius = 0.02\nheight = 0.12",
+       .material = sand("SS", 0.7),
+       .walls = smooth_base + "velocity = [0, -0.015]\nstart = 0\nend = 0.1\n" +
+                "[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.02\n"
+                "friction = 0.4\n",
+       .spacing = 0.0025},
+      "janssen"));
+  run_until(s, 0.06);
+  const auto before = s.loads;
+  const double start = s.time;
+  double vertical = 0;
+  int samples = 0;
+  while (s.time < start + 0.04) {
+    host::step(s);
+    vertical += mean_vertical(s.particles);
+    ++samples;
+  }
+  vertical /= samples;
+  const double time = s.time - start, weight = mass_of(s.particles) * g;
+  const double base = (s.loads[0].normal - before[0].normal) / time;
+  const double side = (s.loads[1].normal - before[1].normal) / time;
+  const double carried = -(s.loads[1].impulse[1] - before[1].impulse[1]) / time;
+  const double ratio = side / (2 * std::numbers::pi * radius * height) / vertical;
+  const double length = radius / (2 * carried / side * ratio);
+  const double janssen = weight * length / height * (1 - std::exp(-height / length));
+  std::printf(
+      "base / weight %.4f, side friction / weight %.4f, friction mobilised %.4f of %.2f, wall stress ratio "
+      "%.4f, Janssen %.4f (deviation %.2f %%)\n",
+      base / weight, carried / weight, carried / side, friction, ratio, janssen / weight,
+      100 * (base / janssen - 1));
+  EXPECT_NEAR(base + carried, weight, 0.02 * weight);
+  EXPECT_LT(carried / side, 1.001 * friction);
+  EXPECT_GT(carried / side, 0.9 * friction) << "the sand slides nearly everywhere";
+  EXPECT_LT(base, 0.6 * weight);
+  EXPECT_NEAR(base, janssen, 0.05 * janssen);
+}
+
+/// Sand in flight: no stress, one velocity.
+template <class Geometry> void throw_sand(host::Simulation<Geometry>& s, const host::WallVector& velocity) {
+  for (auto& component : s.particles.stress) component.assign(component.size(), 0.0);
+  for (int a = 0; a < Geometry::dimension; ++a)
+    std::fill_n(s.particles.velocity[a].begin(), s.particles.count, velocity[a]);
+}
+
+/// Nearest approach of any particle to each wall, m, at this moment.
+template <class Geometry> std::vector<double> approach(const host::Simulation<Geometry>& s) {
+  constexpr int D = Geometry::dimension;
+  std::vector<double> nearest(s.walls.size(), host::unbounded);
+  for (const auto& surface : host::surfaces_at<D>(s.walls, s.scene.geometry, s.time, 0))
+    for (int i = 0; i < s.particles.count; ++i) {
+      host::Point<D> x;
+      for (int a = 0; a < D; ++a) x[a] = s.particles.position[a][i];
+      if (host::beside_shell(surface, x))
+        nearest[surface.wall] = std::min(nearest[surface.wall], host::body_distance(surface, x));
+    }
+  return nearest;
+}
+
+/// Throws the sand of a scene; `hit` walls are touched, none is passed, and what they took up is what the sand lost.
+template <class Geometry>
+void expect_tight(const WallCase& c, const std::string& name, const host::WallVector& velocity,
+                  double duration, const std::vector<std::string>& hit) {
+  auto s = host::start_simulation<Geometry>(wall_scene(c, name));
+  throw_sand(s, velocity);
+  const auto begin = momentum_of(s.particles);
+  const double gap = host::contact_gap * s.scene.spacing, mass = mass_of(s.particles);
+  std::vector<double> nearest(s.walls.size(), host::unbounded);
+  while (s.time < duration) {
+    host::step(s);
+    const auto now = approach(s);
+    for (std::size_t w = 0; w < now.size(); ++w) {
+      nearest[w] = std::min(nearest[w], now[w]);
+      ASSERT_GT(now[w], gap * (1 - 1e-3)) << s.walls[w].name << " at " << s.time;
+    }
+  }
+  for (std::size_t w = 0; w < s.walls.size(); ++w)
+    if (std::ranges::find(hit, s.walls[w].name) != hit.end()) {
+      EXPECT_LT(nearest[w], 0.5 * s.scene.spacing)
+          << s.walls[w].name << ": a gap of more than half a spacing";
+    }
+  std::printf("%s:", name.c_str());
+  for (std::size_t w = 0; w < s.walls.size(); ++w)
+    std::printf(" %s %.3f spacings,", s.walls[w].name.c_str(), nearest[w] / s.scene.spacing);
+  if (host::planes_of_symmetry(s.scene) == 0) {
+    const auto end = momentum_of(s.particles);
+    double error = 0, size = 0;
+    for (int a = 0; a < Geometry::dimension; ++a) {
+      double gained = end[a] - begin[a];
+      if (a == Geometry::dimension - 1) gained += mass * g * (s.time - 0.5 * s.dt);
+      for (const auto& load : s.loads) {
+        gained += load.impulse[a];
+        size = std::max(size, std::abs(load.impulse[a]));
+      }
+      error = std::max(error, std::abs(gained));
+    }
+    std::printf(" momentum not accounted for %.1e", error / size);
+    // Pairs exchange momentum up to the strain of one step: volumes are those before it, densities those after.
+    EXPECT_LT(error, 1e-3 * size);
+  }
+  std::printf("\n");
+}
+
+/// A step in which the hardest impacts strain by less than the guard of the host allows.
+const std::string small_steps = "step_factor = 0.1", smallest_steps = "step_factor = 0.02";
+
+TEST(Tight, PlanesAndBoxesInPlaneStrain) {
+  const std::string vessel = "[[wall]]\nname = \"vessel\"\nshape = \"box\"\nside = \"inside\"\nlower = "
+                             "[-0.1, 0]\nupper = [0.15, 0.3]\n"
+                             "friction = 0.3\n[[wall]]\nname = \"ramp\"\nshape = \"plane\"\npoint = [0.1, "
+                             "0]\nnormal = [-1, 1]\nfriction = 0.5\n"
+                             "[[wall]]\nname = \"block\"\nshape = \"box\"\nside = \"outside\"\nlower = "
+                             "[-0.06, -0.05]\nupper = [-0.01, 0.05]\n"
+                             "friction = \"no-slip\"\n";
+  expect_tight<PlaneStrain>(
+      {.column = "radius = 0.025\nheight = 0.05\nsymmetric = false\nbase = 0.1\ncenter = [-0.02]",
+       .material = sand("TS", 0.4451),
+       .walls = vessel,
+       .spacing = 0.005,
+       .numerics = smallest_steps},
+      "tight_plane", {6, -8, 0}, 0.03, {"vessel", "ramp", "block"});
+}
+
+TEST(Tight, TubesAndBoxesInAxisymmetry) {
+  const std::string walls =
+      "[[wall]]\nname = \"base\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\nfriction = 0.3\n"
+      "[[wall]]\nname = \"post\"\nshape = \"cylinder\"\nside = \"outside\"\nradius = 0.03\nlower = -1\nupper "
+      "= 0.04\n"
+      "friction = 0.3\n[[wall]]\nname = \"ring\"\nshape = \"box\"\nside = \"outside\"\nlower = [0.07, -1]\n"
+      "upper = [0.1, 0.03]\nfriction = 0.3\n[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = "
+      "\"inside\"\n"
+      "radius = 0.15\nfriction = 0\n";
+  expect_tight<Axisymmetric>({.geometry = "axisymmetric",
+                              .column = "radius = 0.05\nheight = 0.03\nbase = 0.06",
+                              .material = sand("TS", 0.4451),
+                              .walls = walls,
+                              .spacing = 0.005,
+                              .numerics = small_steps},
+                             "tight_axisymmetric", {6, -8, 0}, 0.03, {"base", "post", "ring", "tube"});
+}
+
+TEST(Tight, AllShapesInThreeDimensions) {
+  const std::string walls =
+      "[[wall]]\nname = \"slope\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [-0.3, 0.2, 1]\nfriction = "
+      "0.3\n"
+      "[[wall]]\nname = \"post\"\nshape = \"cylinder\"\nside = \"outside\"\nradius = 0.04\ncenter = [0.05, "
+      "0.02]\n"
+      "lower = -1\nupper = 0.06\nfriction = 0.3\n"
+      "[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.15\nfriction = 0\n"
+      "[[wall]]\nname = \"block\"\nshape = \"box\"\nside = \"outside\"\nlower = [-0.07, -0.05, -1]\n"
+      "upper = [0.0, 0.05, 0.05]\nfriction = 0.3\n";
+  expect_tight<ThreeDimensional>({.geometry = "three_dimensional\"\nsector = \"full",
+                                  .column = "radius = 0.04\ndepth = 0.04\nheight = 0.03\nbase = 0.1",
+                                  .material = sand("TS", 0.4451),
+                                  .walls = walls,
+                                  .spacing = 0.01,
+                                  .numerics = small_steps},
+                                 "tight_solid", {5, 1, -8}, 0.03, {"slope", "post", "tube", "block"});
+}
+
+TEST(Moving, APistonLiftsTheSand) {
+  // From rest to 0.1 m/s and back within 0.2 s: up by 10 mm, with the push that the acceleration needs.
+  auto s = host::start_simulation<PlaneStrain>(wall_scene(
+      {.column = "radius = 0.05\nheight = 0.05",
+       .material = sand("TS", 0.4451),
+       .walls = smooth_base + "times = [0, 0.1, 0.2]\nvelocity_z = [0, 0.1, 0]\n" + smooth_tube("0.05"),
+       .spacing = 0.005},
+      "piston"));
+  const auto height = [&] { return host::potential_energy(s.particles, 1) / mass_of(s.particles); };
+  const double before = height(), mass = mass_of(s.particles);
+  run_until(s, 0.1);
+  const double up = s.loads[0].normal / s.time / (mass * g), speed = momentum_of(s.particles)[1] / mass;
+  run_until(s, 0.25);
+  std::printf(
+      "piston: push %.4f of the weight (exact %.4f), speed %.4f m/s, lifted by %.3f mm, work %.4f of m g h\n",
+      up, 1 + 1 / g, speed, 1e3 * (height() - before), s.loads[0].work / (mass * g * 0.01));
+  EXPECT_NEAR(up, 1 + 1 / g, 0.01);
+  EXPECT_NEAR(speed, 0.1, 0.003);
+  EXPECT_NEAR(height() - before, 0.01, 1e-4);
+  EXPECT_NEAR(s.loads[0].work, mass * g * 0.01, 0.02 * mass * g * 0.01);
+}
+
+TEST(Moving, ABoxCarriesTheSandAlong) {
+  auto s = host::start_simulation<PlaneStrain>(
+      wall_scene({.column = "radius = 0.05\nheight = 0.05\nsymmetric = false\nbase = 0.0",
+                  .material = sand("TS", 0.4451),
+                  .walls = "[[wall]]\nname = \"box\"\nshape = \"box\"\nside = \"inside\"\nlower = [-0.05, "
+                           "0]\nupper = [0.05, 1]\n"
+                           "friction = 0.5\ntimes = [0, 0.1, 0.2, 0.3]\nvelocity_x = [0, 0.3, 0.3, 0]\n",
+                  .spacing = 0.005},
+                 "carried"));
+  const double mass = mass_of(s.particles);
+  run_until(s, 0.2);
+  const double speed = momentum_of(s.particles)[0] / mass;
+  run_until(s, 0.4);
+  double shift = 0;
+  for (int i = 0; i < s.particles.count; ++i)
+    shift += s.particles.mass[i] * (s.particles.position[0][i] - s.particles.initial_position[0][i]) / mass;
+  std::printf("box: speed %.4f of 0.3 m/s, carried by %.2f of 60 mm, at rest %.2g m/s\n", speed, 1e3 * shift,
+              momentum_of(s.particles)[0] / mass);
+  EXPECT_NEAR(speed, 0.3, 0.01);
+  EXPECT_NEAR(shift, 0.06, 2e-3);
+  EXPECT_NEAR(momentum_of(s.particles)[0] / mass, 0, 5e-3);
+}
+
+TEST(Moving, ALiftedTubeIsTheGate) {
+  // The same collapse with [floor] and [gate] and with walls of the list.
+  const auto collapse = [](const std::string& walls, const std::string& name) {
+    auto s = host::start_simulation<Axisymmetric>(wall_scene({.geometry = "axisymmetric",
+                                                              .column = "radius = 0.05\nheight = 0.05",
+                                                              .material = sand("TS", 0.4451),
+                                                              .walls = walls,
+                                                              .spacing = 0.005},
+                                                             name));
+    run_until(s, 0.15);
+    double reach = 0;
+    for (int i = 0; i < s.particles.count; ++i) reach += s.particles.mass[i] * s.particles.position[0][i];
+    return reach / mass_of(s.particles);
+  };
+  const double gate =
+      collapse("[floor]\nfriction = 0.5\n[gate]\nmotion = \"lift\"\nspeed = 1.6\n", "by_gate");
+  const double tube = collapse(
+      "[[wall]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\nfriction = 0.5\n"
+      "[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.05\nlower = 0\n"
+      "friction = 0\nvelocity = [0, 1.6]\n",
+      "by_tube");
+  std::printf("mean radius after 0.15 s: gate %.3f mm, lifted tube %.3f mm\n", 1e3 * gate, 1e3 * tube);
+  EXPECT_NEAR(tube, gate, 0.02 * gate);
+}
+
+} // namespace
