@@ -150,7 +150,7 @@ template <class Geometry> void update_lists(Simulation<Geometry>& s) {
 }
 
 template <class Geometry> Memory memory_of(const Simulation<Geometry>& s) {
-  const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
   Memory memory;
   const auto count = [&](const Array& array) { memory.data += bytes(array); };
   s.particles.each_persistent(count);
