@@ -80,7 +80,8 @@ void add_stability(CLI::App& app) {
   static charts::StabilityOptions options;
   auto* stability =
       app.add_subcommand("stability", "Where the particle scheme holds, over its numerical choices");
-  stability->add_option("-o,--output", options.folder, "folder for stability.csv; what it holds is not run again")
+  stability
+      ->add_option("-o,--output", options.folder, "folder for stability.csv; what it holds is not run again")
       ->capture_default_str();
   stability->add_flag("--quick", options.quick, "a small grid");
   stability->add_flag("--afresh", options.afresh, "run all again");

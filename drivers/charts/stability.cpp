@@ -23,9 +23,10 @@ std::string settings_of(const StabilityCase& c) {
 }
 
 std::string row_of(const StabilityCase& c, const StabilityOutcome& o) {
-  std::string row = fmt::format("{},{},{},{:.4g},{}", settings_of(c), o.particles, o.steps, o.end_time, o.ended);
-  for (const double value : {o.imbalance, o.made, o.kinetic_peak, o.kinetic_start, o.kinetic_end, o.thrown, o.noise,
-                             o.height, o.front})
+  std::string row =
+      fmt::format("{},{},{},{:.4g},{}", settings_of(c), o.particles, o.steps, o.end_time, o.ended);
+  for (const double value : {o.imbalance, o.made, o.kinetic_peak, o.kinetic_start, o.kinetic_end, o.thrown,
+                             o.noise, o.height, o.front})
     row += fmt::format(",{:.4g}", value);
   return row + ',' + o.verdict;
 }

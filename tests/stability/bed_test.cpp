@@ -9,8 +9,9 @@ using host::PlaneStrain;
 using Simulation = host::Simulation<PlaneStrain>;
 
 Simulation bed(const std::string& name) {
-  return host::start_simulation<PlaneStrain>(tests::column_scene(
-      {.geometry = "plane_strain", .spacing = 0.00625, .gate = "motion = \"fixed\""}, "stability_bed_" + name));
+  return host::start_simulation<PlaneStrain>(
+      tests::column_scene({.geometry = "plane_strain", .spacing = 0.00625, .gate = "motion = \"fixed\""},
+                          "stability_bed_" + name));
 }
 
 struct Unrest {
@@ -39,7 +40,8 @@ template <class Step> Unrest leave(Simulation s, double duration, Step&& step) {
       out.stress = std::max(out.stress,
                             std::abs(p.stress[1][i] / (-s.scene.bulk_density * s.scene.gravity * depth) - 1));
   }
-  std::printf("after %.3g s: displacement %.3g spacings, vertical stress off by %.2g, kinetic energy %.2g, at the end %.2g\n",
+  std::printf("after %.3g s: displacement %.3g spacings, vertical stress off by %.2g, kinetic energy %.2g, "
+              "at the end %.2g\n",
               s.time, out.displacement, out.stress, out.kinetic, out.late);
   return out;
 }
@@ -85,7 +87,8 @@ TEST(Bed, StartsWithoutAShock) {
 /// Largest error of the rate of compression of a bed that is compressed evenly, at its surface and at walls.
 TEST(Bed, HasACompleteStrainAtSurfaceAndWalls) {
   const auto error = [](Simulation s, auto&& step, bool at_surface) {
-    for (int i = 0; i < s.particles.count; ++i) s.particles.velocity[1][i] = -1e-3 * s.particles.position[1][i];
+    for (int i = 0; i < s.particles.count; ++i)
+      s.particles.velocity[1][i] = -1e-3 * s.particles.position[1][i];
     step(s);
     const auto& p = s.particles;
     double largest = 0;

@@ -2,10 +2,9 @@
 // Failures that show while sand flows: noise of stress on the scale of particles, void ratios that leave the spacing,
 // particles thrown off. One coarse column in plane strain, by the product, by the product without its damping, and by
 // a naive scheme.
-#include "drivers/charts/stress_noise.hpp"
 #include "drivers/charts/stability.hpp"
+#include "drivers/charts/stress_noise.hpp"
 #include "host/metrics.hpp"
-#include "tests/stability/naive_sand.hpp"
 #include "tests/stability/naive_scheme.hpp"
 #include "tests/verification/scenes.hpp"
 #include <algorithm>
@@ -38,7 +37,8 @@ void compare_volumes(Simulation& s, Observed& out) {
     for (std::size_t j = 0; j < s.records.motion.size(); ++j) {
       if (j >= std::size_t(p.count) && j < std::size_t(p.padded())) continue;
       const auto& r = s.records.motion[j];
-      const double x = p.position[0][i] - r.position[0], y = p.position[1][i] - r.position[1], d = std::hypot(x, y);
+      const double x = p.position[0][i] - r.position[0], y = p.position[1][i] - r.position[1],
+                   d = std::hypot(x, y);
       if (d >= reach) continue;
       density += p.mass[i] * s.kernel.value(d); // all masses are equal
       side[0] += r.volume * s.kernel.gradient_factor(d) * x * h;
@@ -52,12 +52,9 @@ void compare_volumes(Simulation& s, Observed& out) {
   out.compared = int(ratios.size());
 }
 
-template <class Step>
-Observed observe(const std::string& name, const host::Numerics& numerics, Step&& step,
-                 vumat::Subroutine<double>* material = nullptr) {
+template <class Step> Observed observe(const std::string& name, const host::Numerics& numerics, Step&& step) {
   auto scene = tests::column_scene({.geometry = "plane_strain", .spacing = 0.005}, "stability_" + name);
   scene.numerics = numerics;
-  if (material) scene.material.library.call = material;
   auto s = host::start_simulation<PlaneStrain>(scene);
   std::vector<bool> thrown(s.particles.count, false);
   Observed out;
@@ -84,8 +81,10 @@ Observed observe(const std::string& name, const host::Numerics& numerics, Step&&
   }
   out.noise /= looks;
   out.thrown = double(std::ranges::count(thrown, true)) / s.particles.count;
-  std::printf("%-20s noise %.3f, void ratio against spacing %+.3f +- %.3f (%d particles), thrown %.3f, highest %.2f h0 %s\n",
-              name.c_str(), out.noise, out.drift, out.scatter, out.compared, out.thrown, out.highest, out.failure.c_str());
+  std::printf("%-20s noise %.3f, void ratio against spacing %+.3f +- %.3f (%d particles), thrown %.3f, "
+              "highest %.2f h0 %s\n",
+              name.c_str(), out.noise, out.drift, out.scatter, out.compared, out.thrown, out.highest,
+              out.failure.c_str());
   return out;
 }
 
@@ -93,15 +92,16 @@ const auto product = [](Simulation& s) { host::step(s); };
 
 TEST(Flow, NoiseOfStressAndDriftOfTheVoidRatio) {
   const auto ours = observe("product", {}, product);
-  const auto bare = observe("undamped", {.viscosity = 0, .flow_viscosity = 0, .stress_diffusion = 0}, product);
+  const auto bare =
+      observe("undamped", {.viscosity = 0, .flow_viscosity = 0, .stress_diffusion = 0}, product);
   const auto naive = observe("naive", {}, [](Simulation& s) { stability::naive_step(s); });
-  stability::faults = {.frozen_void_ratio = true};
-  const auto frozen = observe("frozen void ratio", {}, product, stability::naive_vumat);
   EXPECT_EQ(ours.failure, "");
   EXPECT_LT(ours.noise, 0.8 * std::min(naive.noise, bare.noise));
   EXPECT_LT(std::abs(ours.drift), 0.01);
   EXPECT_LT(ours.scatter, 0.05);
-  EXPECT_GT(std::abs(frozen.drift), 0.03);
+  // Without damping no more than a few particles still stand among others at even distances.
+  EXPECT_GE(ours.compared, 40);
+  EXPECT_LT(bare.compared, 0.5 * ours.compared);
 }
 
 TEST(Flow, NoParticleIsThrownOff) {
@@ -110,26 +110,35 @@ TEST(Flow, NoParticleIsThrownOff) {
         {.material = "simsand", .geometry = host::GeometryKind::axisymmetric, .viscosity = viscosity});
   };
   const auto ours = with(1), bare = with(0);
-  std::printf("thrown off: %.3f of the particles (%s), without viscosity %.3f (%s)\n", ours.thrown, ours.verdict.c_str(),
-              bare.thrown, bare.verdict.c_str());
+  std::printf("thrown off: %.3f of the particles (%s), without viscosity %.3f (%s)\n", ours.thrown,
+              ours.verdict.c_str(), bare.thrown, bare.verdict.c_str());
   EXPECT_EQ(ours.thrown, 0);
   EXPECT_EQ(ours.verdict, "holds");
   EXPECT_GT(bare.thrown, 0);
   EXPECT_NE(bare.verdict, "holds");
 }
 
-/// One front by the deposit's thickness, one by the outermost particle, r0.
-TEST(Flow, TheToeOfOneGrainDependsLessOnTheSpacingThanTheLastParticle) {
-  std::vector<double> grain, last;
-  for (const double spacing : {0.00625, 0.005, 0.004, 0.0033}) {
+/// Fronts, r0: where the deposit is one grain high, where it is one spacing high, and the outermost particle.
+TEST(Flow, TheFrontIsNotResolvedByParticlesLargerThanAGrain) {
+  std::vector<double> grain, layer, last;
+  const std::vector<double> spacings{0.00625, 0.004, 0.002};
+  for (const double spacing : spacings) {
     auto s = host::start_simulation<host::Axisymmetric>(
         tests::column_scene({.spacing = spacing}, fmt::format("stability_toe_{}", spacing)));
     while (s.time < 0.35) host::step(s);
     const auto radii = host::outline_radii(s.scene.spacing, 0.4);
-    grain.push_back(host::front_radius(radii, host::outline(s.particles, s.kernel, radii), 0.00295) / 0.05);
-    last.push_back(*std::max_element(s.particles.position[0].begin(), s.particles.position[0].begin() + s.particles.count) / 0.05);
-    std::printf("spacing %.4g mm: front of one grain %.3f r0, outermost particle %.3f r0\n", 1e3 * spacing, grain.back(), last.back());
+    const auto outline = host::outline(s.particles, s.kernel, radii);
+    const auto* r = s.particles.position[0].data();
+    grain.push_back(host::front_radius(radii, outline, 0.00295) / 0.05);
+    layer.push_back(host::front_radius(radii, outline, spacing) / 0.05);
+    last.push_back(*std::max_element(r, r + s.particles.count) / 0.05);
+    std::printf(
+        "spacing %.4g mm: front of one grain %.3f r0, of one spacing %.3f r0, outermost particle %.3f r0\n",
+        1e3 * spacing, grain.back(), layer.back(), last.back());
   }
+  // A boundary: refinement below a grain is the business of Refinement.* (collapse_tests).
+  EXPECT_GT(grain.back() - grain.front(), 0.2);
+  for (std::size_t k = 0; k < spacings.size(); ++k) EXPECT_NEAR(grain[k], last[k], spacings[k] / 0.05);
 }
 
 } // namespace

@@ -8,7 +8,6 @@ namespace stability {
 
 struct Faults {
   bool trial_dilatancy = false; ///< (9) with the q/p of the elastic trial, which has no bound as p goes to 0
-  bool frozen_void_ratio = false; ///< the void ratio stays where the sand carries no stress
   bool no_gap = false;          ///< the strain that parts the grains is forgotten
 };
 /// A VUMAT is a plain function, so which faults it has is global.
@@ -16,11 +15,11 @@ inline Faults faults;
 
 /// The product's update with the faults put in: a plastic point takes the dilation that the trial's q/p has beyond that
 /// of the yield surface; a gap is not kept.
-inline charts::Point naive_update(const charts::Material& m, charts::Point old, const charts::Tensor& strain) {
+inline charts::Point naive_update(const charts::Material& m, charts::Point old,
+                                  const charts::Tensor& strain) {
   if (faults.no_gap) old.separation_strain = 0;
   auto end = simsand::update(m, old, strain).point;
   if (faults.no_gap) end.separation_strain = 0;
-  if (faults.frozen_void_ratio && end.separation_strain > 0) end.void_ratio = old.void_ratio;
   const double multiplier = end.plastic_strain - old.plastic_strain;
   const auto trial = charts::elastic_answer(m, old, strain).point;
   const double p = charts::mean(end.stress), p_trial = charts::mean(trial.stress);
@@ -39,9 +38,9 @@ inline void naive_vumat(const int* nblock, const int* ndir, const int* nshr, con
                         const char*, const double*, const double*, const double* props, const double*,
                         const double* strainInc, const double*, const double*, const double*, const double*,
                         const double*, const double* stressOld, const double* stateOld,
-                        const double* enerInternOld, const double* enerInelasOld, const double*, const double*,
-                        const double*, const double*, double* stressNew, double* stateNew, double* enerInternNew,
-                        double* enerInelasNew, std::size_t) {
+                        const double* enerInternOld, const double* enerInelasOld, const double*,
+                        const double*, const double*, const double*, double* stressNew, double* stateNew,
+                        double* enerInternNew, double* enerInelasNew, std::size_t) {
   namespace statev = simsand::statev;
   const int n = *nblock, components = *ndir + *nshr;
   const auto m = charts::material_of({props, props + *nprops});
@@ -63,8 +62,8 @@ inline void naive_vumat(const int* nblock, const int* ndir, const int* nshr, con
       const auto start = simsand::initial_point(m, point.stress, point.void_ratio);
       point.plastic_strain = start.plastic_strain;
     }
-    const auto end = *totalTime == 0 ? charts::elastic_answer(m, point, strain).point
-                                     : naive_update(m, point, strain);
+    const auto end =
+        *totalTime == 0 ? charts::elastic_answer(m, point, strain).point : naive_update(m, point, strain);
     for (int c = 0; c < components; ++c) stressNew[c * n + k] = -end.stress[c];
     stateNew[statev::void_ratio * n + k] = end.void_ratio;
     stateNew[statev::plastic_deviatoric_strain * n + k] = end.plastic_strain;

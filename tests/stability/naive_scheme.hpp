@@ -68,7 +68,7 @@ inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naiv
   each_pair([&](int i, int j, bool wall, double x, double y, double w) {
     const auto& r = s.records.stress[j];
     const double rho = p.density[i], ratio = r.density; // V_j = m_j / rho_j
-    double sum[3]; // sigma_i / rho_i^2 + sigma_j / rho_j^2, times rho_j
+    double sum[3];                                      // sigma_i / rho_i^2 + sigma_j / rho_j^2, times rho_j
     constexpr int place[3] = {0, 1, 3};
     for (int c = 0; c < 3; ++c)
       sum[c] = ratio * (p.stress[place[c]][i] / (rho * rho) + r.flux[place[c]] / (r.density * r.density));

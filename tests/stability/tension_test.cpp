@@ -22,7 +22,9 @@ double growth(double stress) {
   const auto moves = [](Place x) { return std::max(std::abs(x[0]), std::abs(x[1])) < 0.015; };
   auto s = make_body(
       0.0025, 0.025, [](Place x) { return std::max(std::abs(x[0]), std::abs(x[1])) < 0.025; },
-      [&](Place x) { return moves(x) ? Place{noise(random), noise(random)} : Place{}; });
+      [&](Place x) {
+        return moves(x) ? Place{noise(random), noise(random)} : Place{};
+      });
   auto& p = s.particles;
   for (int c = 0; c < 3; ++c) p.stress[c].assign(p.padded(), stress);
   const double start = host::kinetic_energy(p);
@@ -41,10 +43,13 @@ double growth(double stress) {
 }
 
 TEST(Tension, NoiseDiesUnderCompressionAndGrowsUnderTension) {
-  for (const double stress : {-1e5, -3e4, -1e4, 0., 1e3, 3e3, 1e4, 3e4})
-    std::printf("stress / E = %+.3f: kinetic energy of the noise times %.3g\n", stress / 1e6, growth(stress));
-  EXPECT_LT(growth(-3e4), 1);
-  EXPECT_GT(growth(3e4), 10);
+  std::vector<double> grown;
+  for (const double stress : {-3e4, 0., 1e3, 1e4}) {
+    grown.push_back(growth(stress));
+    std::printf("stress / E = %+.3f: kinetic energy of the noise times %.3g\n", stress / 1e6, grown.back());
+  }
+  for (const int k : {0, 1, 2}) EXPECT_LT(grown[k], 0.1);
+  EXPECT_GT(grown[3], 1e3) << "a boundary of the method: if it holds now, host/STABILITY.md is to be changed";
 }
 
 /// The time at which two next neighbours are half as far apart again, s; `until` if they never are.
@@ -64,7 +69,9 @@ TEST(Tension, ARotatingElasticSquareComesApart) {
   const auto square = [] {
     return make_body(
         0.0025, 0.025, [](Place x) { return std::max(std::abs(x[0]), std::abs(x[1])) < 0.025; },
-        [](Place x) { return Place{-turn * x[1], turn * x[0]}; });
+        [](Place x) {
+          return Place{-turn * x[1], turn * x[0]};
+        });
   };
   const double period = 2 * std::numbers::pi / turn;
   const double ours = time_of_crack(square(), 0.03, product) / period,
@@ -83,7 +90,9 @@ TEST(Tension, CollidingElasticRingsComeApart) {
           const double r = std::hypot(std::abs(x[0]) - apart, x[1]);
           return r > 0.03 && r < 0.04;
         },
-        [](Place x) { return Place{x[0] > 0 ? -speed : speed, 0}; });
+        [](Place x) {
+          return Place{x[0] > 0 ? -speed : speed, 0};
+        });
   };
   const double ours = time_of_crack(rings(), 0.015, product), other = time_of_crack(rings(), 0.015, naive);
   std::printf("cracked after %.4f s, naive %.4f s\n", ours, other);
