@@ -4,6 +4,7 @@
 #include "drivers/charts/element_chart.hpp"
 #include "drivers/charts/increments.hpp"
 #include "drivers/charts/random_states.hpp"
+#include "drivers/charts/stability.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <omp.h>
@@ -75,6 +76,18 @@ void add_cycles(CLI::App& app) {
   });
 }
 
+void add_stability(CLI::App& app) {
+  static charts::StabilityOptions options;
+  auto* stability =
+      app.add_subcommand("stability", "Where the particle scheme holds, over its numerical choices");
+  stability
+      ->add_option("-o,--output", options.folder, "folder for stability.csv; what it holds is not run again")
+      ->capture_default_str();
+  stability->add_flag("--quick", options.quick, "a small grid");
+  stability->add_flag("--afresh", options.afresh, "run all again");
+  stability->callback([] { charts::chart_stability(options); });
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -95,6 +108,7 @@ int main(int argc, char** argv) {
     add_increments(app);
     add_random(app);
     add_cycles(app);
+    add_stability(app);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);

@@ -4,6 +4,7 @@
 #include "drivers/charts/element_chart.hpp"
 #include "drivers/charts/increments.hpp"
 #include "drivers/charts/random_states.hpp"
+#include "drivers/charts/stability.hpp"
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -210,6 +211,35 @@ TEST(Cycles, GiveNothingAwayBeyondTheDefect) {
   }
   EXPECT_GT(gifts, 20);
   EXPECT_GT(plastic, 300);
+}
+
+TEST(Stability, WhatIsKnownIsNotRunAgain) {
+  const auto table = folder() / "results/stability.csv";
+  fs::remove(table);
+  const auto first = chart("stability --quick -o results");
+  ASSERT_EQ(first.status, 0) << first.err;
+  auto rows = lines(table);
+  ASSERT_EQ(rows.size(), 17u);
+  EXPECT_EQ(rows[0], charts::stability_header);
+  int holds = 0, stopped = 0;
+  for (const auto& row : rows) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 20) << row;
+    holds += row.ends_with(",holds");
+    stopped += row.find(",stopped: ") != std::string::npos;
+    const bool too_large = row.find(",4.8,") != std::string::npos;
+    EXPECT_TRUE(!too_large || row.find(",stopped: ") != std::string::npos) << row;
+  }
+  EXPECT_GE(holds, 4);
+  EXPECT_GE(stopped, 8);
+  // Cut off in a line: what is whole is kept, the rest run again, on other threads, with the same numbers.
+  const auto whole = content(table);
+  std::ofstream(table) << whole.substr(0, whole.size() / 2);
+  const auto second = chart("-t 2 stability --quick -o results");
+  EXPECT_EQ(content(table), whole);
+  EXPECT_EQ(second.out.find("16 of them now"), std::string::npos);
+  EXPECT_NE(chart("stability --quick -o results").out.find("0 of them now"), std::string::npos);
+  std::ofstream(table) << "something else\n";
+  expect_refusal(chart("stability --quick -o results"), "stability.csv:1: expected the columns");
 }
 
 } // namespace

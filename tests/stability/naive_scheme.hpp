@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The counter-case: smoothed particles as in an early textbook, for the tests that show what goes wrong with them.
+// Cubic spline, plain sums for the velocity gradient, sigma/rho^2 pair forces, viscosity on the whole velocity
+// difference (Monaghan 1992), no stress diffusion; stress by the host's own stage and material. Plane strain.
+#pragma once
+#include "host/geometry.hpp"
+#include "host/simulation.hpp"
+#include <cmath>
+#include <numbers>
+#include <omp.h>
+
+namespace stability {
+
+/// Hundreds of particles are too few to share.
+inline const int one_thread = (omp_set_num_threads(1), 1);
+
+/// W'(r)/r of the cubic spline in the plane, support 2 h.
+inline double cubic_gradient_factor(double r, double h) {
+  const double q = r / h, alpha = 10 / (7 * std::numbers::pi * h * h);
+  if (q >= 2 || q == 0) return 0;
+  const double slope = q < 1 ? -3 * q + 2.25 * q * q : -0.75 * (2 - q) * (2 - q);
+  return alpha * slope / (h * r);
+}
+
+struct Naive {
+  double alpha = 0.1;       ///< of the viscosity
+  double step_factor = 0.2; ///< of h / (c + |v|)
+};
+
+inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naive = {}) {
+  auto& p = s.particles;
+  const double h = s.kernel.h;
+  host::move_gate(s.mirrors, s.scene, s.time);
+  host::update_lists(s);
+  host::update_wave_speed(p, s.scene.material, s.blocks);
+  double fastest = 0;
+  for (int i = 0; i < p.count; ++i)
+    fastest = std::max(fastest, p.wave_speed[i] + std::hypot(p.velocity[0][i], p.velocity[1][i]));
+  s.dt = naive.step_factor * h / fastest;
+
+  // f(i, record of j, x_i - x_j, V_j W'/r)
+  const auto each_pair = [&](auto&& f) {
+    for (int c = 0; c < p.clusters(); ++c)
+      for (int i = c * host::lanes; i < std::min((c + 1) * host::lanes, p.count); ++i)
+        for (int k = 0; k < s.lists.total[c]; ++k) {
+          const int j = s.lists.begin(c)[k];
+          const auto& record = s.records.motion[j];
+          const double x = p.position[0][i] - record.position[0], y = p.position[1][i] - record.position[1];
+          f(i, j, k >= s.lists.interior[c], x, y, record.volume * cubic_gradient_factor(std::hypot(x, y), h));
+        }
+  };
+  for (auto& component : p.velocity_gradient) component.assign(component.size(), 0.0);
+  each_pair([&](int i, int j, bool, double x, double y, double w) {
+    const double* v = s.records.motion[j].velocity;
+    for (int a = 0; a < 2; ++a) {
+      p.velocity_gradient[2 * a][i] += (v[a] - p.velocity[a][i]) * w * x;
+      p.velocity_gradient[2 * a + 1][i] += (v[a] - p.velocity[a][i]) * w * y;
+    }
+  });
+  for (auto& component : p.stress_diffusion) component.assign(component.size(), 0.0);
+  host::update_stress(p, s.scene.material, {s.time + s.dt, s.time + s.dt, s.dt}, s.blocks);
+  host::show_stress(p, s.scene, h, s.records);
+  for (auto& mirror : s.mirrors) mirror.weight_gradient = 0; // an image is a mirror image and no more
+  host::reflect_stress(s.images, s.mirrors, s.records);
+
+  for (auto* group : {&p.stress_acceleration, &p.viscous_acceleration, &p.wall_acceleration})
+    for (auto& component : *group) component.assign(component.size(), 0.0);
+  each_pair([&](int i, int j, bool wall, double x, double y, double w) {
+    const auto& r = s.records.stress[j];
+    const double rho = p.density[i], ratio = r.density; // V_j = m_j / rho_j
+    double sum[3];                                      // sigma_i / rho_i^2 + sigma_j / rho_j^2, times rho_j
+    constexpr int place[3] = {0, 1, 3};
+    for (int c = 0; c < 3; ++c)
+      sum[c] = ratio * (p.stress[place[c]][i] / (rho * rho) + r.flux[place[c]] / (r.density * r.density));
+    const double approach = (p.velocity[0][i] - r.velocity[0]) * x + (p.velocity[1][i] - r.velocity[1]) * y;
+    const double viscous =
+        approach < 0 ? naive.alpha * h * p.wave_speed[i] * approach / (x * x + y * y + 0.01 * h * h) : 0;
+    auto& stress = wall ? p.wall_acceleration : p.stress_acceleration;
+    auto& viscosity = wall ? p.wall_acceleration : p.viscous_acceleration;
+    stress[0][i] += (sum[0] * x + sum[2] * y) * w;
+    stress[1][i] += (sum[2] * x + sum[1] * y) * w;
+    viscosity[0][i] += viscous * x * w;
+    viscosity[1][i] += viscous * y * w;
+  });
+  s.work.add(host::integrate(p, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt));
+  s.time += s.dt;
+  s.dt_before = s.dt;
+  ++s.steps;
+}
+
+} // namespace stability
