@@ -20,7 +20,8 @@ struct StudyRun {
   std::vector<std::string> settings; ///< "table.key=value"
 };
 
-/// Runs those that have no complete result of exactly this scene. Throws std::runtime_error naming the runs that
+/// Runs those that have no complete result of exactly this scene, as many at a time as `parallel` and the memory
+/// allow, and leaves beside each result the processor's seconds (`cpu_seconds`). Throws std::runtime_error naming the runs that
 /// failed and their logs, after all others have ended.
 void run_missing(std::vector<StudyRun> runs, const StudyOptions& options);
 
