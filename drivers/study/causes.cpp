@@ -52,8 +52,7 @@ void study_causes(const CauseStudyOptions& options) {
                       std::move(settings)});
     }
   }
-  run_missing(std::move(runs), options.study);
-  report_study("study_causes.py", options.study);
+  run_and_report(std::move(runs), "study_causes.py", options.study);
 }
 
 } // namespace drivers

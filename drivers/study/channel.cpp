@@ -20,8 +20,7 @@ void study_channel(const ChannelStudyOptions& options) {
   for (const auto* dilation : {"0", "5"})
     add(fmt::format("drucker_prager_psi{}", dilation),
         {"material.file=" + (materials / fmt::format("rods_drucker_prager_psi{}.toml", dilation)).string()});
-  run_missing(std::move(runs), study);
-  report_study("study_channel.py", study);
+  run_and_report(std::move(runs), "study_channel.py", study);
 }
 
 } // namespace drivers

@@ -62,8 +62,7 @@ void study_columns(const ColumnStudyOptions& options) {
   std::vector<StudyRun> runs;
   for (double spacing : options.spacings)
     for (auto& run : column_runs(options, spacing)) runs.push_back(std::move(run));
-  run_missing(std::move(runs), options.study);
-  report_study("study_columns.py", options.study);
+  run_and_report(std::move(runs), "study_columns.py", options.study);
 }
 
 } // namespace drivers

@@ -13,6 +13,7 @@ struct Job {
   std::string log;                  ///< file for its output, replaced
   double cost = 1;                  ///< expected, in any unit: long ones first
   double memory = 0;                ///< bytes, expected at most
+  bool whole = true;                ///< false: it goes on with what an earlier one began
 };
 
 /// Called when a job has ended; `cpu_seconds` is what it took of a processor, `left` seconds are expected until all

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/runs.hpp"
+#include "drivers/resume.hpp"
 #include "drivers/scene_file.hpp"
 #include "drivers/study/jobs.hpp"
 #include "host/output.hpp"
@@ -45,14 +46,31 @@ double memory_of(double particles) {
   return 40e6 + 4e3 * particles;
 }
 
+/// Whether an interrupted run of exactly this scene can go on.
+bool can_resume(const StudyRun& run, const host::Scene& scene) {
+  try {
+    if (!fs::exists(checkpoint_path(run.folder))) return false;
+    const auto found = find_resumption(run.folder, "");
+    return found && found->scene.resolved == scene.resolved;
+  } catch (const std::runtime_error&) {
+    return false; // unreadable, or of another version: begin anew
+  }
+}
+
 Job job_of(const StudyRun& run, const host::Scene& scene) {
   const double particles = particles_of(scene);
+  const auto program = fs::read_symlink("/proc/self/exe").string();
   Job job{run.name,
-          {fs::read_symlink("/proc/self/exe").string(), "run", run.scene, "--threads", "1", "--quiet"},
+          {program, "run", run.scene, "--threads", "1", "--quiet"},
           run.folder + "/run.log",
           particles * std::sqrt(scene.column.height) / scene.spacing, // particles times steps
           memory_of(particles)};
   if (scene.geometry == host::GeometryKind::three_dimensional) job.cost *= 3; // each has more neighbours
+  if (can_resume(run, scene)) {
+    job.command = {program, "run", "--resume", run.folder, "--threads", "1", "--quiet"};
+    job.whole = false;
+    return job;
+  }
   for (const auto& setting : run.settings) job.command.insert(job.command.end(), {"--set", setting});
   return job;
 }
@@ -71,7 +89,8 @@ void run_missing(std::vector<StudyRun> runs, const StudyOptions& options) {
     spdlog::info("{} runs, {} of them to do, {} at a time", runs.size(), jobs.size(), options.parallel);
   const auto failed =
       run_jobs(jobs, limits, [&](const Job& job, bool ok, double cpu_seconds, int left, double seconds) {
-        if (ok) std::ofstream(fs::path(job.log).parent_path() / "cpu_seconds") << cpu_seconds << '\n';
+        if (ok && job.whole)
+          std::ofstream(fs::path(job.log).parent_path() / "cpu_seconds") << cpu_seconds << '\n';
         if (!options.quiet)
           spdlog::info("{:<28}{:<8}{:3} left, about {:.1f} minutes", job.name, ok ? "done" : "failed", left,
                        seconds / 60);
@@ -89,6 +108,16 @@ void report_study(const std::string& script, const StudyOptions& options) {
   if (std::system(command.c_str()) != 0)
     throw std::runtime_error(
         fmt::format("the runs are complete, but their report failed; to repeat it: {}", command));
+}
+
+void run_and_report(std::vector<StudyRun> runs, const std::string& script, const StudyOptions& options) {
+  try {
+    run_missing(std::move(runs), options);
+  } catch (const std::runtime_error&) {
+    report_study(script, options);
+    throw;
+  }
+  report_study(script, options);
 }
 
 } // namespace drivers
