@@ -13,8 +13,9 @@ import sys
 
 import study_pictures as pictures
 from study_data import finest, read_dem, read_laws, read_runs
-from study_discussion import against_dem, against_laws, between_sets, simpler, spent, why
-from study_page import PAGE, bullets, embedded, page_table, save, write_table
+from study_discussion import against_dem, against_laws, between_sets, simpler, spent, thrown, why
+from study_page import (PAGE, bullets, embedded, page_table, save, text_bullets, text_table,
+                        write_table)
 from study_pictures import plt
 from study_rows import cost_rows, rows_of
 from study_trends import trends
@@ -27,6 +28,9 @@ SHORT = ("shape", "packing", "a", "void_ratio", "height", "dem_height", "height_
          "radius_error_%", "outline_distance_%", "time_to_rest_s", "fall_95_s", "dem_fall_95_s", "undisturbed",
          "dem_undisturbed", "undisturbed_cm3", "Lube 2004 height", "Lajeunesse 2004 height", "Lube 2004 runout",
          "Lajeunesse 2004, second reading runout", "cpu_s", "dem_cost_over_ours")
+COST = ("set", "spacing_mm", "columns", "columns_with_dem", "mean_height_error_%", "mean_radius_error_%", "to_1mm_height_%",
+        "to_1mm_radius_%", "to_2mm_height_%", "to_2mm_radius_%", "cpu_s_all", "median_dem_cost_over_ours",
+        "median_dem_collapse_over_ours")
 INTRO = """Axisymmetric SPH with SIMSAND, beside discrete elements (DEM) of the same grains and the laws of Lube et al. (2004) and
 Lajeunesse et al. (2004). Heights and runouts over the initial radius of 50 mm; the front is where the deposit is one
 grain, 2.95 mm, high. Errors are of SPH against DEM. Undisturbed: what moved less than half a grain. Fall 95: when 95 % of the
@@ -43,6 +47,19 @@ class Study:
         self.shown = {name: found for name, found in self.shown.items() if found[1]}
         self.rows = {name: rows_of(columns, self.dem, self.laws) for name, (_, columns) in self.shown.items()}
         self.costs = cost_rows(self.runs, self.dem, self.laws)
+        self.text = ""  # the same report without pictures, in Markdown
+
+    def title(self, title, level=2):
+        self.text += f"\n{'#' * level} {title}\n\n"
+        return f"<h{level}>{html.escape(title)}</h{level}>"
+
+    def sentences(self, lines):
+        self.text += text_bullets(lines)
+        return bullets(lines)
+
+    def table(self, rows, names=None):
+        self.text += "\n" + text_table(rows, names)
+        return page_table(rows, names)
 
     def picture(self, name, caption, fig, dpi=110):
         if fig is None:
@@ -52,21 +69,18 @@ class Study:
         plt.close(fig)
         return embedded(path, caption)
 
-    def heading(self, name, title):
-        return f"<h2>{html.escape(title)}, {self.shown[name][0]:g} mm</h2>"
-
 
 def overview(study):
     """Sets side by side: deposits, errors, trends, cost."""
     families = [("DEM (Fig. 8)", study.dem)] if study.dem else []
     families += [(f"{pictures.NAMES[name]}, {study.shown[name][0]:g} mm (Fig. 9)", study.shown[name][1])
                  for name in MAIN if name in study.shown]
-    body = "<h2>Side by side</h2>" + study.picture(
+    body = study.title("Side by side") + study.picture(
         "deposits", "Figs. 8 and 9: final height and runout, DEM and SPH, with the laws", pictures.deposits(families, study.laws))
     body += study.picture("errors", "Errors of SPH against DEM, column by column",
                           pictures.errors([(name, study.rows[name]) for name in study.shown if name != "literal"]))
     if all(name in study.rows for name in MAIN):
-        body += bullets(between_sets(study.rows["table4"], study.rows["dem"], ("Table 4", "the calibrated set")))
+        body += study.sentences(between_sets(study.rows["table4"], study.rows["dem"], ("Table 4", "the calibrated set")))
     return body
 
 
@@ -77,19 +91,19 @@ def trend_part(study):
     rows += [{"columns": "DEM", **row} for row in trends(study.dem)]
     write_table(study.folder / "trends.csv", rows)
     wanted = [f"{name}, {study.shown[name][0]:g} mm" for name in MAIN if name in study.shown] + ["DEM"]
-    return ("<h2>The trends of the paper</h2><p>Counts of cases in which a trend holds, differs by less than the scatter of "
+    return (study.title("The trends of the paper") + "<p>Counts of cases in which a trend holds, differs by less than the scatter of "
             "single runs (equal), or fails; failing cases with the amount by which they do.</p>" +
-            page_table([row for row in rows if row["columns"] in wanted and row["holds"] + row["equal"] + row["fails"]]))
+            study.table([row for row in rows if row["columns"] in wanted and row["holds"] + row["equal"] + row["fails"]]))
 
 
 def cost_part(study):
     write_table(study.folder / "cost.csv", study.costs)
-    body = "<h2>Cost</h2>" + study.picture("cost", "Error against processor time at each spacing",
+    body = study.title("Cost") + study.picture("cost", "Error against processor time at each spacing",
                                            pictures.cost(study.costs))
     for name in MAIN:
         if lines := spent(study.costs, name):
-            body += f"<p>{html.escape(pictures.NAMES[name])}</p>" + bullets(lines)
-    return body + page_table(study.costs)
+            body += study.title(pictures.NAMES[name], 3) + study.sentences(lines)
+    return body + study.table(study.costs, COST)
 
 
 def fields_of(study, name):
@@ -110,22 +124,26 @@ def fields_of(study, name):
                                 "less than half a grain", pictures.all_fields(runs), 85)
 
 
+def like_columns(study, name, base):
+    """Rows of another set at the spacing of this one, for the columns it has."""
+    spacing, columns = study.shown[name]
+    other = study.runs.get((base, spacing), {})
+    return rows_of({key: run for key, run in other.items() if key in columns}, study.dem, study.laws)
+
+
 def set_part(study, name, title):
-    rows = study.rows[name]
-    body = study.heading(name, title) + bullets(against_dem(rows))
+    rows, (spacing, runs) = study.rows[name], study.shown[name]
+    body = study.title(f"{title}, {spacing:g} mm") + study.sentences(against_dem(rows))
     if name in MAIN:
-        body += "<h3>Why SPH and DEM differ</h3>" + bullets(why(rows, study.shown[name][1], study.dem))
-        body += "<h3>Beside the laws of the laboratory</h3>" + bullets(against_laws(rows)) + fields_of(study, name)
+        body += study.title("Why SPH and DEM differ", 3) + study.sentences(why(rows, runs, study.dem) + thrown(runs))
+        body += study.title("Beside the laws of the laboratory", 3) + study.sentences(against_laws(rows))
+        body += fields_of(study, name)
     elif name == "drucker_prager":
-        spacing = study.shown[name][0]
-        sand = rows_of(study.runs.get(("dem", spacing), {}), study.dem, study.laws)
-        body += bullets(simpler(rows, sand))
+        body += study.sentences(simpler(rows, like_columns(study, name, "dem")))
     else:
         base = "table4" if name == "literal" else "dem"
-        spacing = study.shown[name][0]
-        like = rows_of(study.runs.get((base, spacing), {}), study.dem, study.laws)
-        body += bullets(between_sets(like, rows, (f"{base} at {spacing:g} mm", name)))
-    return body + page_table(rows, SHORT)
+        body += study.sentences(between_sets(like_columns(study, name, base), rows, (f"set {base}", f"set {name}")))
+    return body + study.table(rows, SHORT)
 
 
 def main():
@@ -142,6 +160,7 @@ def main():
             write_table(study.folder / f"{name}.csv", study.rows[name])
             body += set_part(study, name, title)
             print(f"{title}, {study.shown[name][0]:g} mm", *against_dem(study.rows[name]), sep="\n  ")
+    (study.folder / "report.md").write_text(study.text, encoding="utf-8")
     page = study.folder / "index.html"
     page.write_text(PAGE.format(title="The 24 columns of Jin, Lu and Yang", intro=INTRO, body=body), encoding="utf-8")
     print(page)

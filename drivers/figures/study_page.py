@@ -53,6 +53,22 @@ def bullets(sentences):
     return "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in sentences) + "</ul>" if sentences else ""
 
 
+def text_table(rows, names=None):
+    """The same in Markdown."""
+    columns = [name for name in names or columns_of(rows) if any(name in row for row in rows)]
+    lines = [columns_head(columns), "|---" * len(columns) + "|"]
+    lines += ["| " + " | ".join(shown(row.get(c, "")) for c in columns) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def columns_head(columns):
+    return "| " + " | ".join(c.replace("_", " ") for c in columns) + " |"
+
+
+def text_bullets(sentences):
+    return "".join(f"- {line}\n" for line in sentences)
+
+
 def write_table(path, rows):
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns_of(rows), restval="", lineterminator="\n")

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from figures import AMBER, BLUE, GREEN, GREY, MM, ORANGE, SKY, level_line, particles, surface
-from study_data import ASPECTS, PACKINGS, SHAPES, STILL, law_value
+from study_data import ASPECTS, PACKINGS, SHAPES, STILL
 from study_rows import HEIGHT_LAW, RADIUS_LAW, RUNOUT_LAW
 
 COLOUR = dict(zip(SHAPES, (BLUE, ORANGE, GREEN)))
@@ -29,18 +29,22 @@ def aspect_axis(ax, label):
     ax.grid(color="0.92")
 
 
+LAW_STYLES = {("Lube 2004", ""): ("-", "Lube et al. 2004"), ("Lajeunesse 2004", ""): ("--", "Lajeunesse et al. 2004"),
+              ("Lajeunesse 2004", "first reading"): (":", "Lajeunesse et al., read as $(r_f - r_0)/r_0$"),
+              ("Lajeunesse 2004", "second reading"): ("--", "Lajeunesse et al., read as $r_f/r_0$")}
+
+
 def draw_laws(axes, laws):
-    a = np.geomspace(0.4, 5, 400)
-    styles = {"Lube 2004": ("-", "Lube et al. 2004"), "Lajeunesse 2004": ("--", "Lajeunesse et al. 2004")}
+    """Each piece of a law as a line of its own: where they do not meet, nothing is stated between."""
     for (source, quantity, reading), pieces in laws.items():
-        values = np.array([law_value(pieces, x) for x in a])
-        if quantity == RADIUS_LAW:
-            values, quantity = values - 1, RUNOUT_LAW
-        panel = {HEIGHT_LAW: 0, RUNOUT_LAW: 1}.get(quantity)
-        if panel is not None:
-            style, name = styles[source]
-            style = ":" if reading.startswith("first") else style
-            axes[panel].plot(a, values, style, color=GREY, lw=1.1, label=name + (f", {reading}" if reading else ""))
+        panel = {HEIGHT_LAW: 0, RUNOUT_LAW: 1, RADIUS_LAW: 1}.get(quantity)
+        if panel is None:
+            continue
+        style, name = LAW_STYLES[source, reading]
+        for low, high, coefficient, exponent in pieces:
+            a = np.geomspace(max(low, 0.4), min(high, 5), 100)
+            values = coefficient * a**exponent - (quantity == RADIUS_LAW)
+            axes[panel].plot(a, values, style, color=GREY, lw=1.1, label=name)
 
 
 def draw_deposits(axes, columns):
@@ -101,34 +105,35 @@ def outlines(runs, dem, aspect=2.0, packing="dense"):
     shapes = [s for s in SHAPES if (s, packing, aspect) in runs]
     if not shapes:
         return None
-    bodies = [runs[s, packing, aspect] for s in shapes] + [dem[k] for k in dem if k in
-                                                           [(s, packing, aspect) for s in shapes]]
+    bodies = [runs[s, packing, aspect] for s in shapes] + [body for key, body in dem.items()
+                                                          if key in [(s, packing, aspect) for s in shapes]]
     reach = 1.1 * MM * max(body.r0 * (1 + body.runout) for body in bodies)
     fig, axes = row_figure(len(shapes), reach, 55 * aspect)
     colours = plt.get_cmap("viridis_r")(np.linspace(0.1, 1, len(TIMES) + 1))
     for ax, shape in zip(axes[:, 0], shapes):
         run, other = runs[shape, packing, aspect], dem.get((shape, packing, aspect))
         snapshots = run.result.snapshots
-        for colour, n in zip(colours, nearest([s.time for s in snapshots], TIMES)):
-            r, z = surface(run.result.radii, snapshots[n]["outline"])
-            last = n == len(snapshots) - 1
-            ax.plot(r, z, color=colour, lw=1.9 if last else 1.1, label=f"{snapshots[n].time:.2f} s")
+        draw_outlines(ax, 1, [s.time for s in snapshots], run.result.radii, lambda n: snapshots[n]["outline"], colours)
+        ends = f"SPH right (end {snapshots[-1].time:.2f} s)"
         if other:
-            for colour, n in zip(colours, nearest(other.time, TIMES)):
-                r, z = surface(other["outline/radius"], other["outline/height"][n])
-                ax.plot(-r, z, color=colour, lw=1.9 if n == len(other.time) - 1 else 1.1,
-                        label=f"{other.time[n]:.2f} s")
-            ax.add_artist(ax.legend(handles=[l for l in ax.get_lines() if len(l.get_xdata()) > 2 and
-                                             l.get_xdata()[-1] < 0], fontsize=7, loc="upper left", title="DEM",
-                                    title_fontsize=7))
+            draw_outlines(ax, -1, other.time, other["outline/radius"], lambda n: other["outline/height"][n], colours)
+            ends = f"DEM left (end {other.time[-1]:.2f} s), {ends}"
         else:
             absent(ax, 0.25, "no discrete elements of this column")
-        ax.legend(handles=[l for l in ax.get_lines() if len(l.get_xdata()) > 2 and l.get_xdata()[-1] > 0], fontsize=7,
-                  loc="upper right", title="SPH", title_fontsize=7)
         mirrored_axis(ax, reach, 55 * aspect)
-        ax.set_title(f"{shape} {packing}, $a$ = {aspect:g}", fontsize=10)
+        ax.set_title(f"{shape} {packing}, $a$ = {aspect:g}: {ends}", fontsize=10)
+    lines = {l.get_label(): l for l in axes[0, 0].get_lines() if not l.get_label().startswith("_")}
+    axes[0, 0].legend(lines.values(), lines.keys(), title="time", loc="upper left", bbox_to_anchor=(1.01, 1.05), fontsize=8)
     axes[-1, 0].set_xlabel("$r$ / mm")
     return fig
+
+
+def draw_outlines(ax, side, times, radii, outline, colours):
+    """Outlines at TIMES and at the end, on one side of the axis."""
+    for colour, n in zip(colours, nearest(times, TIMES)):
+        r, z = surface(radii, outline(n))
+        last = n == len(times) - 1
+        ax.plot(side * r, z, color=colour, lw=1.9 if last else 1.1, label="end" if last else f"{times[n]:.2f} s")
 
 
 def heights(runs, dem):
@@ -142,7 +147,7 @@ def heights(runs, dem):
                 if run:
                     ax.plot(run.time, run.heights / run.h0, color=COLOUR[shape], lw=1.5, label=f"SPH {shape}")
                 if other:
-                    ax.plot(other.time, other.heights / other.h0, "--", color=COLOUR[shape], lw=1.3,
+                    ax.plot(other.time, other.heights / other.heights[0], "--", color=COLOUR[shape], lw=1.3,
                             label=f"DEM {shape}")
             for phase, label in ((0.05, "0.05 s"), (0.4, "0.40 s")):
                 ax.axvline(phase, color="0.8", lw=1, zorder=0)
@@ -269,7 +274,7 @@ def errors(sets):
 
 def cost(table):
     """Mean errors against processor time of one column, by set and spacing; beside the time of discrete elements."""
-    rows = [row for row in table if "mean_height_error_%" in row]
+    rows = [row for row in table if "mean_height_error_%" in row and row["set"] in ("dem", "table4", "drucker_prager")]
     if not rows:
         return None
     fig, axes = plt.subplots(1, 2, figsize=(10, 4.2), sharex=True, layout="constrained")
@@ -278,17 +283,16 @@ def cost(table):
     for ax, label in zip(axes, ("height", "radius")):
         for name in names:
             of_set = sorted((row for row in rows if row["set"] == name), key=lambda row: row["spacing_mm"])
-            x = [row["cpu_s_of_these"] / row["columns_with_dem"] for row in of_set]
+            x = [row["median_cpu_s"] for row in of_set]
             y = [row[f"mean_{label}_error_%"] for row in of_set]
             ax.plot(x, y, "o-", color=colours[name], label=NAMES.get(name, name))
             for row, here, there in zip(of_set, x, y):
                 ax.annotate(f"{row['spacing_mm']:g} mm", (here, there), fontsize=7.5, textcoords="offset points",
                             xytext=(4, 5))
-        x = rows[0]["dem_cpu_s"] / rows[0]["columns_with_dem"]
-        ax.axvline(x, color=GREY, ls="--", lw=1, label="cost of the discrete elements")
+        ax.axvline(rows[0]["median_dem_cpu_s"], color=GREY, ls="--", lw=1, label="cost of the discrete elements")
         ax.set_xscale("log")
         ax.set_ylim(bottom=0)
-        ax.set_xlabel("processor time of a column, mean / s")
+        ax.set_xlabel("processor time of a column, median / s")
         ax.set_ylabel(f"mean error of the final {label} / %")
         ax.grid(color="0.92")
     axes[0].legend(fontsize=8, loc="best")

@@ -86,7 +86,8 @@ def cost_rows(runs, dem, laws):
                                                               for a, b in pairs])}
         row["cpu_s_all"] = sum(column.seconds for column in columns.values())
         if rows:
-            row |= {"dem_cpu_s": values(rows, "dem_cpu_s").sum(), "cpu_s_of_these": values(rows, "cpu_s").sum(),
+            row |= {"median_dem_cpu_s": np.median(values(rows, "dem_cpu_s")),
+                    "median_cpu_s": np.median(values(rows, "cpu_s")),
                     "median_dem_cost_over_ours": np.median(values(rows, "dem_cost_over_ours")),
                     "median_dem_collapse_over_ours": np.median(values(rows, "dem_collapse_over_ours"))}
         table.append(row)

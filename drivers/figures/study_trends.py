@@ -6,9 +6,9 @@ import numpy as np
 from study_data import ASPECTS, PACKINGS, SHAPES, fallen, undisturbed
 
 SCATTER = {"height": 0.01, "runout": 0.05, "undisturbed": 0.005}  # README: equal runs that differ in the step alone
-# Shape of the undisturbed zone. Its radius near the top (at nine tenths of its height) over that at the floor
+# Shape of the undisturbed zone (zone_shape). Its radius near the top (at nine tenths of its height) over that at the floor
 # tells a trapezoid from a cone; the part of the deposit above its top tells what is buried.
-TRAPEZOID, BURIED = 0.5, 0.4
+TRAPEZOID, BURIED = 1 / 3, 0.4  # a paraboloid has 0.32, a cone 0.1
 
 
 class Trend:
@@ -82,8 +82,9 @@ def shape_trends(columns):
 
 
 def zone_trends(columns):
-    flat, cone, buried = Trend("undisturbed zone trapezoidal at a = 0.5"), \
-        Trend("undisturbed zone conical at a = 1 and 2"), Trend("undisturbed zone buried at a = 4")
+    flat, cone, open_top, buried = Trend("undisturbed zone trapezoidal at a = 0.5"), \
+        Trend("undisturbed zone conical at a = 1 and 2"), \
+        Trend("undisturbed zone not buried at a = 1 and 2"), Trend("undisturbed zone buried at a = 4")
     for (shape, packing, a), body in columns.items():
         _, slope, cover = zone_shape(body)
         case = f"{shape} {packing} a = {a:g}"
@@ -91,13 +92,14 @@ def zone_trends(columns):
             flat.add(case, slope - TRAPEZOID if np.isfinite(slope) else -TRAPEZOID)
         elif a < 4:
             cone.add(case, TRAPEZOID - slope if np.isfinite(slope) else -TRAPEZOID)
+            open_top.add(case, BURIED - cover)
         else:
             buried.add(case, cover - BURIED)
-    return [flat, cone, buried]
+    return [flat, cone, open_top, buried]
 
 
 def phase_trend(columns):
-    """The first and the last twentieth of the fall are slow: each has less than a third of the mean speed between."""
+    """The first and the last twentieth of the fall are slow: each has less than half the mean speed between."""
     trend = Trend("three phases: the fall begins slowly, is fast, and ends slowly")
     for (shape, packing, a), body in columns.items():
         begin, end = (fallen(body.time, body.heights, share) for share in (0.05, 0.95))
@@ -105,7 +107,7 @@ def phase_trend(columns):
         if np.isfinite(begin):
             fast = 0.9 / (end - begin)
             slowest = min(fast * begin / 0.05, fast * (standing - end) / 0.05)
-            trend.add(f"{shape} {packing} a = {a:g}", slowest - 3)
+            trend.add(f"{shape} {packing} a = {a:g}", slowest - 2)
     return trend
 
 

@@ -35,8 +35,8 @@ std::optional<double> released_void_ratio(const StudyColumn& column) {
 Settings drucker_prager(const StudyColumn& column) {
   const double angle = read_toml(calibrated_material(column)).number("phi");
   const auto file = fs::absolute(fs::path(column.data) / "materials/drucker_prager_24.toml");
-  const double at_rest = 1 - std::sin(angle * std::numbers::pi / 180); // Jaky 1944
-  return {"material.file=" + file.string(),
+  const double at_rest = 1 - std::sin(angle * std::numbers::pi / 180);     // Jaky 1944
+  return {"material.file=" + file.string(), "material.kinematics=jaumann", // isotropic: no need of F and U
           fmt::format("material.properties=[2e6, 0.2, {}, 0.0, 0.0]", angle),
           fmt::format("initial_stress.K0={}", at_rest)};
 }
