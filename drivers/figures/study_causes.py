@@ -44,7 +44,10 @@ def read_changes(folder):
     """Column -> name -> change; complete runs only."""
     columns = {}
     for path in sorted(folder.glob("ss_*/*/result.h5")):
-        change = Change(path.parent)
+        try:
+            change = Change(path.parent)
+        except (OSError, ValueError, KeyError):  # being written
+            continue
         if change.result.complete:
             columns.setdefault(path.parts[-3], {})[change.name] = change
     return {name: changes for name, changes in columns.items() if "base" in changes}
@@ -97,10 +100,9 @@ def parameter_lines(column, changes, other, data):
                      f"{100 * ((1 + base.runout) / (1 + other.runout) - 1):+.1f} %)")
     others = [c for c in changes.values() if c.family in PARAMETERS and c.family != "friction"]
     if others:
-        effect = max(others, key=lambda c: abs(c.height / base.height - 1))
-        lines.append(f"{column}: no dilatancy, no interlocking or a critical initial void ratio change the height by "
-                     f"{100 * (effect.height / base.height - 1):+.1f} % at most ({effect.name}); the error is "
-                     f"{100 * (base.height / other.height - 1):+.0f} %")
+        effects = ", ".join(f"{c.name.replace('_', ' ')}: {100 * (c.height / base.height - 1):+.0f} %" for c in others)
+        lines.append(f"{column}: other parameters change the height by: {effects}; DEM's height asks for "
+                     f"{100 * (other.height / base.height - 1):+.0f} %")
     return lines
 
 
@@ -108,9 +110,10 @@ def boundary_lines(column, changes, other):
     base = changes["base"]
     lines = []
     for change in (c for c in changes.values() if c.family == "floor"):
-        lines.append(f"{column}: floor {change.value}: height {100 * (change.height / other.height - 1):+.0f} %, radius "
-                     f"{100 * ((1 + change.runout) / (1 + other.runout) - 1):+.0f} % from DEM (base "
-                     f"{100 * (base.height / other.height - 1):+.0f} and "
+        radius = 100 * ((1 + change.runout) / (1 + other.runout) - 1)
+        far = f"radius {radius:+.0f} %" if np.isfinite(radius) else "radius not found: it leaves the sampled radii"
+        lines.append(f"{column}: floor {change.value}: height {100 * (change.height / other.height - 1):+.0f} %, {far} from DEM "
+                     f"(base {100 * (base.height / other.height - 1):+.0f} and "
                      f"{100 * ((1 + base.runout) / (1 + other.runout) - 1):+.0f} %)")
     return lines
 
@@ -159,6 +162,8 @@ def effects_figure(rows):
     """Effect of each change on height and radius, columns side by side; the error to be explained as a line."""
     names = list(dict.fromkeys(r["change"] for f in (*PARAMETERS, *BOUNDARY, *SCHEME) for r in rows
                                if r["change"].split("_")[0] == f and r["change"] != "dimension_2"))
+    names.sort(key=lambda name: (name.startswith("friction"), float(name[9:]) if name.startswith("friction") else 0),
+               reverse=True)
     columns = list(dict.fromkeys(row["column"] for row in rows))
     colours = dict(zip(columns, (BLUE, ORANGE, GREEN)))
     fig, axes = plt.subplots(1, 2, figsize=(11, 0.3 * len(names) + 1.2), sharey=True, layout="constrained")
@@ -182,7 +187,7 @@ def effects_figure(rows):
 
 
 def outlines_figure(columns, dem, variants):
-    fig, axes = plt.subplots(len(columns), 1, figsize=(9.5, 2.9 * len(columns)), squeeze=False, layout="constrained")
+    fig, axes = plt.subplots(len(columns), 1, figsize=(9.5, 2.3 * len(columns)), squeeze=False, layout="constrained")
     for ax, (column, changes) in zip(axes[:, 0], columns.items()):
         other, base = dem[key_of(column)], changes["base"]
         then = int(np.abs(other.time - base.rest).argmin())
@@ -202,7 +207,7 @@ def outlines_figure(columns, dem, variants):
         ax.set_xlim(0, 175)
         ax.set_ylim(0, 1.15 * MM * base.r0 * base.height)
         ax.set_ylabel("$z$ / mm")
-        ax.set_title(column.replace("_", " "), fontsize=10)
+        ax.set_title("{} {}, $a$ = {:g}".format(*key_of(column)), fontsize=10)
         ax.legend(fontsize=8, loc="upper right")
     axes[-1, 0].set_xlabel("$r$ / mm")
     return fig

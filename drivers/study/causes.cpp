@@ -19,7 +19,7 @@ std::vector<Change> changes(double spacing, bool all) {
                         const std::vector<std::string>& values) {
     for (const auto& value : values) list.push_back({family + "_" + value, {key + "=" + value}});
   };
-  each("friction", "material.phi", {"14", "11", "8"}); // of the critical state, degrees
+  each("friction", "material.phi", {"14", "11", "8", "6"}); // of the critical state, degrees
   each("dilatancy", "material.A_d", {"0"});
   each("interlocking", "material.n_p", {"0"});
   each("packing", "material.void_ratio", {"0.7"}); // critical
