@@ -49,6 +49,15 @@ class Study:
         self.costs = cost_rows(self.runs, self.dem, self.laws)
         self.text = ""  # the same report without pictures, in Markdown
 
+    def alike(self, first, second):
+        """Rows of two sets at one spacing: that with most columns in both, the finest of those."""
+        spacings = {spacing for _, spacing in self.runs}
+        common = {spacing: self.runs.get((first, spacing), {}).keys() & self.runs.get((second, spacing), {}).keys()
+                  for spacing in spacings}
+        spacing = min(spacings, key=lambda s: (-len(common[s]), s))
+        return spacing, [rows_of({key: run for key, run in self.runs.get((name, spacing), {}).items()
+                                  if key in common[spacing]}, self.dem, self.laws) for name in (first, second)]
+
     def title(self, title, level=2):
         self.text += f"\n{'#' * level} {title}\n\n"
         return f"<h{level}>{html.escape(title)}</h{level}>"
@@ -77,10 +86,12 @@ def overview(study):
                  for name in MAIN if name in study.shown]
     body = study.title("Side by side") + study.picture(
         "deposits", "Figs. 8 and 9: final height and runout, DEM and SPH, with the laws", pictures.deposits(families, study.laws))
-    body += study.picture("errors", "Errors of SPH against DEM, column by column",
-                          pictures.errors([(name, study.rows[name]) for name in study.shown if name != "literal"]))
-    if all(name in study.rows for name in MAIN):
-        body += study.sentences(between_sets(study.rows["table4"], study.rows["dem"], ("Table 4", "the calibrated set")))
+    body += study.picture("errors", "Errors of SPH against DEM, column by column", pictures.errors(
+        [(f"{pictures.NAMES[name]}, {study.shown[name][0]:g} mm", study.rows[name]) for name in study.shown
+         if name != "literal"]))
+    if all(name in study.shown for name in MAIN):
+        spacing, (first, second) = study.alike("table4", "dem")
+        body += study.sentences(between_sets(first, second, (f"Table 4 at {spacing:g} mm", "the calibrated set")))
     return body
 
 

@@ -259,7 +259,7 @@ def errors(sets):
         x = np.array([n for n, case in enumerate(cases) if case in found])
         for ax, of in zip(axes, ("height_error_%", "radius_error_%")):
             ax.bar(x + 0.8 * (number + 0.5) / len(sets) - 0.4, [found[cases[n]][of] for n in x], 0.8 / len(sets),
-                   color=colours[name], label=NAMES.get(name, name))
+                   color=colours[name], label=name)
     for ax, label in zip(axes, ("$h_f$: SPH - DEM / %", "$r_f$: SPH - DEM / %")):
         for bound in (-15, 15):
             ax.axhline(bound, color="0.6", lw=0.8, ls="--")
