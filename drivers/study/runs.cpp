@@ -7,6 +7,7 @@
 #include "host/result_read.hpp"
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -114,8 +115,12 @@ void run_and_report(std::vector<StudyRun> runs, const std::string& script, const
   try {
     run_missing(std::move(runs), options);
   } catch (const std::runtime_error&) {
-    report_study(script, options);
-    throw;
+    const auto first = std::current_exception();
+    try {
+      report_study(script, options);
+    } catch (const std::runtime_error&) { // nothing to report: why is what failed first
+    }
+    std::rethrow_exception(first);
   }
   report_study(script, options);
 }
