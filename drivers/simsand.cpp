@@ -9,6 +9,7 @@
 #include "drivers/resume.hpp"
 #include "drivers/run.hpp"
 #include "drivers/scene_file.hpp"
+#include "drivers/study/causes.hpp"
 #include "drivers/study/channel.hpp"
 #include "drivers/study/columns.hpp"
 #include "drivers/version.hpp"
@@ -136,15 +137,24 @@ void add_study(CLI::App& app) {
                     ->require_subcommand(1);
   auto* command = study->add_subcommand("columns", "The 24 columns of Jin, Lu and Yang");
   add_study_options(*command, columns.study);
-  command->add_option("--spacing", columns.spacing, "distance of particles, m")
+  command->add_option("--spacing", columns.spacings, "distances of particles, m; the finest is shown")
+      ->delimiter(',')
       ->check(CLI::Range(1e-4, 1e-2))
       ->capture_default_str();
-  command->add_option("--sets", columns.sets, "parameters: table4 (the paper's), dem (calibrated), literal")
+  command->add_option("--sets", columns.sets, "parameters: drivers/study/COLUMNS.md")
       ->delimiter(',')
-      ->check(CLI::IsMember({"table4", "dem", "literal"}))
+      ->check(CLI::IsMember(drivers::parameter_sets()))
       ->capture_default_str();
   command->add_option("--only", columns.only, "only columns with this in their names, as ss_dense or a0.5");
   command->callback([] { drivers::study_columns(columns); });
+
+  static drivers::CauseStudyOptions causes;
+  command = study->add_subcommand("causes", "Why SPH and discrete elements of spheres differ");
+  add_study_options(*command, causes.study);
+  command->add_option("--spacing", causes.spacing, "distance of particles, m")
+      ->check(CLI::Range(1e-3, 1e-2))
+      ->capture_default_str();
+  command->callback([] { drivers::study_causes(causes); });
 
   command = study->add_subcommand("channel", "The rods of Bui et al., by SIMSAND and Drucker-Prager");
   add_study_options(*command, channel.study);

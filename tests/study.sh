@@ -9,17 +9,34 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "study.sh: $*" >&2; exit 1; }
 
-columns=("$simsand" study columns --spacing 0.005 --only dense_a0.5 --sets table4,dem,literal -o "$folder/columns")
+# Three columns: two sets at both spacings, the sensitivities at the coarse one; DEM exists of all three.
+columns=("$simsand" study columns --spacing 0.005,0.00625 --only dense_a0.5 -o "$folder/columns")
 "${columns[@]}" > "$folder/first.log" 2>&1 || { cat "$folder/first.log" >&2; fail "columns failed"; }
-grep -q "9 runs, 9 of them to do" "$folder/first.log" || fail "not 9 runs at first"
-"${columns[@]}" > "$folder/second.log" 2>&1
-grep -q "9 runs, 0 of them to do" "$folder/second.log" || fail "complete runs were run again"
-for file in table4.csv dem.csv literal.csv index.html table4_deposits.png table4_all_fields.png; do
+grep -q "30 runs, 30 of them to do" "$folder/first.log" || fail "not 30 runs at first: $(head -n 1 "$folder/first.log")"
+
+# One that is missing is run again; one that was interrupted goes on from its checkpoint; others stay.
+rm "$folder/columns/5mm/table4/ts_dense_a0.5/result.h5"
+run=$folder/columns/5mm/dem/ss_dense_a0.5
+rm "$run/result.h5"
+(cd "$folder" && exec "$simsand" run "$run/scene.toml" -t 1 -q > /dev/null 2>&1) &
+process=$!
+for _ in $(seq 500); do [[ -s $run/result.h5 ]] && break; sleep 0.01; done
+kill "$process" || fail "the run ended before it could be interrupted"
+wait "$process" || true
+[[ -s $run/checkpoint.h5 ]] || fail "no checkpoint of the interrupted run"
+"${columns[@]}" > "$folder/second.log" 2>&1 || { cat "$folder/second.log" >&2; fail "columns failed again"; }
+grep -q "30 runs, 2 of them to do" "$folder/second.log" || fail "not only the two were run: $(head -n 1 "$folder/second.log")"
+[[ -e $run/checkpoint.h5 ]] && fail "the interrupted run did not go on"
+for file in table4.csv dem.csv literal.csv dem_packing.csv drucker_prager.csv cost.csv trends.csv report.md index.html \
+  deposits.png errors.png cost.png dem_all_fields.png dem_heights.png table4_outlines_low.png; do
   [[ -s $folder/columns/$file ]] || fail "no $file"
 done
 [[ $(wc -l < "$folder/columns/table4.csv") == 4 ]] || fail "table4.csv has not one row for each column"
 head -n 1 "$folder/columns/table4.csv" | grep -q "^shape,packing,a,void_ratio,height,runout,.*dem_height" ||
   fail "columns of table4.csv"
+[[ $(wc -l < "$folder/columns/cost.csv") == 11 ]] || fail "cost.csv has not one row for each set and spacing"
+grep -q 'src="http' "$folder/columns/index.html" && fail "the page is not self-contained"
+grep -q "data:image/png" "$folder/columns/index.html" || fail "the page has no pictures"
 
 "$simsand" study channel --spacing 0.02 -o "$folder/channel" > "$folder/channel.log" 2>&1 ||
   { cat "$folder/channel.log" >&2; fail "channel failed"; }
@@ -28,5 +45,5 @@ head -n 1 "$folder/columns/table4.csv" | grep -q "^shape,packing,a,void_ratio,he
 
 mkdir -p "$folder/data/scenes" # a scene whose material is not there
 cp "$(dirname "$simsand")/../data/scenes/ss_dense_a0.5.toml" "$folder/data/scenes/"
-if "$simsand" study columns --data "$folder/data" -o "$folder/none" 2> "$folder/err"; then fail "no error"; fi
+if "$simsand" study columns --data "$folder/data" --sets table4 -o "$folder/none" 2> "$folder/err"; then fail "no error"; fi
 grep -q "SS.toml" "$folder/err" || fail "the missing material is not named: $(cat "$folder/err")"

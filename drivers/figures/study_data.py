@@ -6,9 +6,23 @@ import pathlib
 import h5py
 import numpy as np
 
-from result import Result
+from result import Result, text
 
 SHAPES, PACKINGS, ASPECTS = ("SS", "TS", "ES"), ("dense", "loose"), (0.5, 1.0, 2.0, 4.0)
+STILL = 0.5  # grains: what moved less is undisturbed
+
+
+def fallen(time, height, share):
+    """Time at which the height has made this share of its whole fall; nan where it does not fall by a percent."""
+    fall = height[0] - height[-1]
+    if fall < 0.01 * height[0]:
+        return np.nan
+    done = (height[0] - height) / fall
+    last = np.flatnonzero(done < share)[-1]  # what follows stays beyond
+    if last + 1 == len(time):
+        return time[-1]
+    part = (share - done[last]) / (done[last + 1] - done[last])
+    return time[last] + part * (time[last + 1] - time[last])
 
 
 class Run:
@@ -25,47 +39,93 @@ class Run:
         scene = self.result.scene
         self.r0, self.h0 = scene["column"]["radius"], scene["column"]["height"]
         self.void_ratio = scene["material"]["void_ratio"]
-        self.grain = scene["output"]["grain_diameter"]
-        masses = self.result.file["particles/mass"][()]
-        still = self.result.displacement() < 0.5 * self.grain
-        self.undisturbed = masses[still].sum() / masses.sum()
+        self.grain, self.spacing = scene["output"]["grain_diameter"], scene["scene"]["spacing"]
+        self.time, self.heights = self.result.series["time"], self.result.series["height"]
+        measured = folder / "cpu_seconds"
+        self.seconds = float(measured.read_text()) if measured.exists() else self.summary["wall_clock"]
 
     @property
     def key(self):
         return self.shape, self.packing, self.aspect
 
+    def zone(self):
+        """Undisturbed zone of the initial column: levels, and the radius of a disc with the area that stays."""
+        start, still = self.result.initial_position, self.result.displacement() < STILL * self.grain
+        level = np.round(start[:, 1], 9)
+        z, row = np.unique(level, return_inverse=True)
+        masses = self.result.file["particles/mass"][()]
+        share = np.bincount(row, weights=masses * still) / np.bincount(row, weights=masses)
+        return z, self.r0 * np.sqrt(share)
+
 
 class Dem:
     """One column by discrete elements (schema: data/dem/README.md)."""
 
-    def __init__(self, path, row):
+    def __init__(self, path):
         self.file = h5py.File(path, "r")
-        self.height, self.runout = float(row["h_surface_over_r0"]), float(row["runout_one_grain"])
-        self.undisturbed, self.seconds = float(row["undisturbed_fraction_0.5d"]), float(row["cpu_s"])
+        a = self.file.attrs
+        self.shape, self.packing = text(a["shape"]), text(a["packing"])
+        self.aspect, self.r0, self.h0 = float(a["aspect_ratio"]), float(a["radius_m"]), float(a["height_m"])
+        self.seed, self.variables, self.void_ratio = int(a["seed"]), text(a["variables"]), float(a["void_ratio"])
+        self.time, self.heights = self["time"], self["height/surface"]
+        self.fronts = self["front/one_grain"]
+        self.height, self.runout = self.heights[-1] / self.r0, self.fronts[-1] / self.r0 - 1
+        self.undisturbed = float(a["undisturbed_fraction_0.5d"])
+        self.collapse_seconds = float(a["cpu_s_collapse"])
+        self.seconds = self.collapse_seconds + float(a["cpu_s_deposit"]) + float(a["cpu_s_settle"])
 
     def __getitem__(self, name):
         return self.file[name][()]
 
+    @property
+    def key(self):
+        return self.shape, self.packing, self.aspect
+
+    def zone(self):
+        """As Run.zone."""
+        grains, share = self["displacement/count"], self["displacement/undisturbed_0.5d"]
+        still = np.nansum(grains * np.nan_to_num(share), axis=1) / grains.sum(axis=1)
+        return self["displacement/z"], self.r0 * np.sqrt(still)
+
+
+def undisturbed(body):
+    """Share of the column that moved less than half a grain."""
+    z, radius = body.zone()
+    return float(np.mean(radius**2) / body.r0**2)
+
 
 def read_runs(folder):
-    """Runs of a set by (shape, packing, aspect ratio); only complete ones."""
+    """Runs below FOLDER/SPACINGmm/SET/COLUMN: (set, spacing in mm) -> (shape, packing, aspect ratio) -> run; only
+    complete ones."""
     runs = {}
-    for path in sorted(pathlib.Path(folder).glob("*/result.h5")):
-        run = Run(path.parent)
+    for path in sorted(pathlib.Path(folder).glob("*mm/*/*_a*/result.h5")):
+        try:
+            run = Run(path.parent)
+        except (OSError, ValueError, KeyError):  # being written
+            continue
         if run.result.complete:
-            runs[run.key] = run
+            of_set = runs.setdefault((path.parts[-3], float(path.parts[-4][:-2])), {})
+            of_set[run.key] = run
     return runs
 
 
-def read_dem(data):
-    """Discrete elements of the main set: first seed, nothing varied."""
-    folder = pathlib.Path(data) / "dem/results"
+def finest(runs, name):
+    """Spacing in mm and runs of a set at the finest spacing that has as many columns as any; (nan, {}) if none."""
+    found = {spacing: columns for (of_set, spacing), columns in runs.items() if of_set == name}
+    if not found:
+        return np.nan, {}
+    most = max(len(columns) for columns in found.values())
+    spacing = min(s for s, columns in found.items() if len(columns) == most)
+    return spacing, found[spacing]
+
+
+def read_dem(data, variables="none"):
+    """Discrete elements of the main set: first seed, nothing varied; or of a variant."""
     columns = {}
-    with open(folder / "columns.csv", encoding="utf-8") as table:
-        for row in csv.DictReader(table):
-            path = folder / f"{row['case']}.h5"
-            if row["seed"] == "1" and row["variables"] == "none" and path.exists():
-                columns[row["shape"], row["packing"], float(row["aspect_ratio"])] = Dem(path, row)
+    for path in sorted((pathlib.Path(data) / "dem/results").glob("column_*.h5")):
+        column = Dem(path)
+        if column.seed == 1 and column.variables == variables:
+            columns[column.key] = column
     return columns
 
 
@@ -97,7 +157,6 @@ def deviation(run, dem):
 def outline_distance(run, dem):
     """Area between the final outlines over the area of the initial half section."""
     r = run.result.radii
-    ours = run.result.final["outline"]
     theirs = np.interp(r, dem["outline/radius"], dem["outline/height"][-1], right=0.0)
-    return np.trapezoid(np.abs(ours - theirs), r) / (run.r0 * run.h0) if hasattr(np, "trapezoid") else \
-        np.trapz(np.abs(ours - theirs), r) / (run.r0 * run.h0)
+    difference = np.abs(run.result.final["outline"] - theirs)
+    return float(np.sum(0.5 * (difference[1:] + difference[:-1]) * np.diff(r)) / (run.r0 * run.h0))

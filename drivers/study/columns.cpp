@@ -11,58 +11,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of the scenes of the 24 columns, sorted.
-std::vector<std::string> column_names(const ColumnStudyOptions& options) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(options.study.data) / "scenes")) {
-    const auto name = entry.path().stem().string();
-    const bool column = entry.path().extension() == ".toml" && name.find("se_a") != name.npos;
-    if (column && name.find(options.only) != name.npos) names.push_back(name);
-  }
-  std::sort(names.begin(), names.end());
-  if (names.empty())
-    throw std::runtime_error(fmt::format(
-        "{}/scenes: expected scenes named like ss_dense_a1.toml{}, found none", options.study.data,
-        options.only.empty() ? "" : " with '" + options.only + "' in the name"));
-  return names;
+constexpr double sensitivity_spacing = 2e-3; ///< m: sensitivities run no finer if they can run coarser
+
+/// Whether the set runs at this spacing: a sensitivity leaves out fine ones, unless nothing coarser is asked for.
+bool has_spacing(const std::string& set, double spacing, const std::vector<double>& spacings) {
+  const double coarsest = *std::max_element(spacings.begin(), spacings.end());
+  return !is_sensitivity(set) || spacing >= std::min(sensitivity_spacing, coarsest);
 }
 
-/// What distinguishes a parameter set. `void_ratio` is that of the scene.
-std::vector<std::string> set_settings(const std::string& set, const std::string& shape, double void_ratio,
-                                      const ColumnStudyOptions& options) {
-  if (set == "table4") return {};
-  // The paper heads its column of porosities "void ratio": the number as printed, taken by its name.
-  if (set == "literal") return {fmt::format("material.void_ratio={:.4f}", void_ratio / (1 + void_ratio))};
-  const auto file = fs::absolute(fs::path(options.study.data) / "materials" / (shape + "_dem.toml"));
-  if (!fs::exists(file))
-    throw std::runtime_error(fmt::format("{}: expected the calibrated material of set 'dem', found no file; "
-                                         "simsand calibrate writes it",
-                                         file.string()));
-  return {"material.file=" + file.string()};
+StudyRun run_of(const StudyColumn& column, const std::string& set, double spacing,
+                std::vector<std::string> settings, const ColumnStudyOptions& options) {
+  settings.push_back(fmt::format("scene.spacing={}", spacing));
+  settings.push_back("output.snapshot_interval=0.02");
+  const auto name = fmt::format("{:g}mm/{}/{}", 1e3 * spacing, set, column.name);
+  return {name, column.scene, (fs::path(options.study.folder) / name).string(), std::move(settings)};
 }
 
-std::vector<StudyRun> column_runs(const ColumnStudyOptions& options) {
+std::vector<StudyRun> column_runs(const ColumnStudyOptions& options, double spacing) {
   std::vector<StudyRun> runs;
   for (const auto& set : options.sets)
-    for (const auto& name : column_names(options)) {
-      const auto file = (fs::path(options.study.data) / "scenes" / (name + ".toml")).string();
-      auto shape = name.substr(0, 2);
-      std::transform(shape.begin(), shape.end(), shape.begin(), ::toupper);
-      const double void_ratio = read_toml(file).table("material").number("void_ratio");
-      StudyRun run{set + "/" + name, file, (fs::path(options.study.folder) / set / name).string(),
-                   set_settings(set, shape, void_ratio, options)};
-      run.settings.push_back(fmt::format("scene.spacing={}", options.spacing));
-      run.settings.push_back("output.snapshot_interval=0.02");
-      runs.push_back(std::move(run));
-    }
+    for (const auto& column : study_columns_of(options.study.data, options.only))
+      if (has_spacing(set, spacing, options.spacings))
+        if (auto settings = set_settings(set, column))
+          runs.push_back(run_of(column, set, spacing, std::move(*settings), options));
   return runs;
 }
 
 } // namespace
 
+std::vector<StudyColumn> study_columns_of(const std::string& data, const std::string& only) {
+  std::vector<StudyColumn> columns;
+  for (const auto& entry : fs::directory_iterator(fs::path(data) / "scenes")) {
+    const auto name = entry.path().stem().string();
+    const bool loose_or_dense = name.find("_dense_a") == 2 || name.find("_loose_a") == 2;
+    const bool axisymmetric = name.find_last_not_of("0123456789.") == name.rfind("_a") + 1; // no suffix
+    if (entry.path().extension() != ".toml" || !loose_or_dense || !axisymmetric) continue;
+    if (name.find(only) == name.npos) continue;
+    const auto file = entry.path().string();
+    columns.push_back({name, file, data, read_toml(file).table("material").number("void_ratio")});
+  }
+  std::sort(columns.begin(), columns.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  if (columns.empty())
+    throw std::runtime_error(
+        fmt::format("{}/scenes: expected scenes named like ss_dense_a1.toml{}, found none", data,
+                    only.empty() ? "" : " with '" + only + "' in the name"));
+  return columns;
+}
+
 void study_columns(const ColumnStudyOptions& options) {
-  run_missing(column_runs(options), options.study);
-  report_study("study_columns.py", options.study);
+  std::vector<StudyRun> runs;
+  for (double spacing : options.spacings)
+    for (auto& run : column_runs(options, spacing)) runs.push_back(std::move(run));
+  run_and_report(std::move(runs), "study_columns.py", options.study);
 }
 
 } // namespace drivers

@@ -20,12 +20,17 @@ struct StudyRun {
   std::vector<std::string> settings; ///< "table.key=value"
 };
 
-/// Runs those that have no complete result of exactly this scene. Throws std::runtime_error naming the runs that
-/// failed and their logs, after all others have ended.
+/// Runs those that have no complete result of exactly this scene, as many at a time as `parallel` and the memory
+/// allow; interrupted ones go on from their checkpoints. Leaves beside each result the processor's seconds
+/// (`cpu_seconds`), but not of a run that was interrupted. Throws std::runtime_error naming the runs that failed and
+/// their logs, after all others have ended.
 void run_missing(std::vector<StudyRun> runs, const StudyOptions& options);
 
-/// Tables, pictures and the page, by a script of drivers/figures. Throws std::runtime_error with the command if it
-/// fails.
+/// Tables, pictures and the page of the runs that are complete, by a script of drivers/figures. Throws
+/// std::runtime_error with the command if it fails.
 void report_study(const std::string& script, const StudyOptions& options);
+
+/// Both; where runs fail, the report is made of the others first.
+void run_and_report(std::vector<StudyRun> runs, const std::string& script, const StudyOptions& options);
 
 } // namespace drivers
