@@ -7,13 +7,33 @@
 #include "vumat/parameters.hpp"
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace drivers {
 namespace {
 
+/// Softens SIMSAND: waves are slower and steps longer; strength, dilatancy and critical state stay.
+void scale_stiffness(const TomlTable& material, LoadedMaterial& loaded) {
+  constexpr auto key = "stiffness_scale";
+  if (!loaded.is_simsand) {
+    if (material.has(key)) material.fail(key, "a material that is SIMSAND", "one with PROPS of its own");
+    return;
+  }
+  constexpr int stiffness = 0;
+  static_assert(simsand::parameters[stiffness].key == "K0");
+  const double scale = material.number(key, {1e-3, 1}, 1.0), least = simsand::parameters[stiffness].lower;
+  double& value = loaded.material.properties[stiffness];
+  if (value * scale < least)
+    material.fail(key, fmt::format("a number that leaves K0 at {} or more", least),
+                  fmt::format("{} for K0 = {}", scale, value));
+  value *= scale;
+}
+
 void read_material(const TomlTable& root, host::Scene& scene) {
-  const auto loaded = read_material(root.table("material"));
+  const auto table = root.table("material");
+  auto loaded = read_material(table);
+  scale_stiffness(table, loaded);
   scene.material = loaded.material;
   scene.state_names = loaded.state_names;
   scene.initial_state = loaded.initial_state;

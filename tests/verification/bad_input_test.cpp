@@ -136,6 +136,9 @@ TEST(BadInput, Keys) {
           "10: key 'material.properties': expected an array of numbers, found element 2: \"a\"");
   refuses("state_variables = 1", "state_variables = 1.5",
           "11: key 'material.state_variables': expected an integer from 0 to 10000, found 1.5");
+  refuses("density = 1500.0", "density = 1500.0\nstiffness_scale = 0.1",
+          "13: key 'material.stiffness_scale': expected a material that is SIMSAND, found one with PROPS of "
+          "its own");
   refuses("folder = \"results\"", "folder = 3", "23: key 'output.folder': expected a text, found 3");
   refuses("spacing = 0.01", "sector = \"full\"\nspacing = 0.01",
           "3: key 'scene.sector': expected a known key, found an unknown one");

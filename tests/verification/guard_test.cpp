@@ -51,6 +51,25 @@ TEST(Guard, TheSceneFileTakesNoStepThatCouldGoWrongUnseen) {
                   "key 'numerics.step_factor': expected a number from 0.0001 to 1, found 1.5"));
 }
 
+TEST(Guard, SofterSandTakesLongerSteps) {
+  const auto first_step = [](const std::string& material) {
+    const auto scene = tests::column_scene({.spacing = 0.005, .extra = material}, "guard_soft");
+    auto s = host::start_simulation<Axisymmetric>(scene);
+    host::step(s);
+    return s.first_dt;
+  };
+  EXPECT_NEAR(first_step("stiffness_scale = 0.25") / first_step(""), 2, 1e-3);
+  EXPECT_EQ(first_step("stiffness_scale = 1"), first_step(""));
+  const auto refused = [&](const std::string& value) {
+    return error_of([&] { first_step("stiffness_scale = " + value); });
+  };
+  EXPECT_TRUE(
+      has(refused("1.5"), "key 'material.stiffness_scale': expected a number from 0.001 to 1, found 1.5"));
+  EXPECT_TRUE(has(
+      refused("0.1\nK0 = 5"),
+      "key 'material.stiffness_scale': expected a number that leaves K0 at 1 or more, found 0.1 for K0 = 5"));
+}
+
 TEST(Guard, TheLargestStepOfASceneFileIsSound) {
   omp_set_num_threads(1);
   const auto run = [](const std::string& numerics) {
