@@ -4,6 +4,7 @@
 #include "drivers/study/jobs.hpp"
 #include "host/output.hpp"
 #include "host/result_read.hpp"
+#include "host/vumat_library.hpp"
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -30,7 +31,7 @@ bool is_done(const StudyRun& run, const host::Scene& scene) {
 Job job_of(const StudyRun& run, const host::Scene& scene) {
   const auto& [radius, height] = scene.column;
   Job job{run.name,
-          {fs::read_symlink("/proc/self/exe").string(), "run", run.scene, "--threads", "1", "--quiet"},
+          {host::beside_program("simsand"), "run", run.scene, "--threads", "1", "--quiet"},
           run.folder + "/run.log",
           radius * std::pow(height, 1.5) / std::pow(scene.spacing, 3)}; // particles times steps
   for (const auto& setting : run.settings) job.command.insert(job.command.end(), {"--set", setting});
