@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/accuracy/chart.hpp"
+#include "drivers/accuracy/chart_data.hpp"
 #include "drivers/accuracy/chart_runs.hpp"
-#include "drivers/accuracy/chart_table.hpp"
 #include "drivers/accuracy/deposit.hpp"
 #include "drivers/scene_file.hpp"
 #include <algorithm>
@@ -117,6 +117,7 @@ void chart_accuracy(const AccuracyChartOptions& options) {
     if (d.deposit) seconds += d.deposit->seconds;
   }
   write_chart_table(fs::path(options.study.folder) / "runs.csv", rows);
+  write_points(fs::path(options.study.folder) / "points.csv", ChartData(rows));
   if (!options.study.quiet) spdlog::info("{} runs, {:.0f} s of processor", rows.size(), seconds);
   report_study("accuracy.py", options.study);
 }
