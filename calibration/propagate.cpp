@@ -5,6 +5,7 @@
 #include "drivers/scene_file.hpp"
 #include "host/result_read.hpp"
 #include "host/whole_file.hpp"
+#include "vumat/parameters.hpp"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -145,12 +146,27 @@ void print_bands(const std::vector<std::pair<std::string, Quantiles>>& bands, st
   fmt::print("results: {}\n", options.study.folder);
 }
 
+/// Remarks on parameters of the scene that no sample is near: perhaps another sand.
+void warn_of_other_sand(const host::Scene& scene, const StoredPosterior& posterior) {
+  for (std::size_t k = 0; k < posterior.names.size(); ++k) {
+    const auto& name = posterior.names[k];
+    const double here = scene.material.properties[std::size_t(simsand::parameter_index(name))];
+    const auto [least, most] = std::minmax_element(posterior.samples.begin(), posterior.samples.end(),
+                                                   [k](const auto& a, const auto& b) { return a[k] < b[k]; });
+    if (here < (*least)[k] || here > (*most)[k])
+      spdlog::warn("{} = {:g} of the scene is outside of all samples, {:g} to {:g}, which replace it: is it "
+                   "the same sand?",
+                   name, here, (*least)[k], (*most)[k]);
+  }
+}
+
 } // namespace
 
 void propagate(PropagateOptions options) {
   const auto posterior = read_posterior(options.posterior);
   const auto scene = drivers::read_scene(options.scene, options.settings);
   require_fit_for(scene, posterior);
+  warn_of_other_sand(scene, posterior);
   if (!posterior.converged)
     spdlog::warn("{}: its chain is not converged by the fit's own diagnosis", options.posterior);
   auto& folder = options.study.folder;

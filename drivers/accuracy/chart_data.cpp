@@ -80,16 +80,27 @@ ChartData::ChartData(std::vector<ChartRow> rows) : runs(std::move(rows)) {
 }
 
 void ChartData::find_references() {
-  for (const auto& row : runs)
-    if (!row.failed && is_default(row))
-      reference_resolution = std::max(reference_resolution, row.configuration.resolution);
+  const auto usable = [](const ChartRow& row) { return !row.failed && is_default(row); };
+  for (const auto& row : runs) {
+    if (!usable(row)) continue;
+    auto& most = reference_resolution[row.column];
+    most = std::max(most, row.configuration.resolution);
+  }
   std::map<std::string, std::vector<double>> heights, radii;
   for (const auto& row : runs)
-    if (!row.failed && is_default(row) && row.configuration.resolution == reference_resolution) {
+    if (usable(row) && row.configuration.resolution == reference_resolution.at(row.column)) {
       heights[row.column].push_back(row.height);
       radii[row.column].push_back(row.radius);
+      in_plane[row.column] = is_plane(row.configuration);
     }
   for (const auto& [name, values] : heights) reference[name] = {mean_of(values), mean_of(radii[name])};
+}
+
+double ChartData::finest(bool plane) const {
+  double least = INFINITY;
+  for (const auto& [name, resolution] : reference_resolution)
+    if (in_plane.at(name) == plane) least = std::min(least, resolution);
+  return least;
 }
 
 HeightRadius ChartData::error(const ChartRow& row) const {
@@ -124,10 +135,8 @@ double ChartData::cost_over_all(const Configuration& configuration) const {
   for (const auto& row : runs)
     if (row.configuration == configuration && !row.failed)
       over_base.push_back(seconds_of(row) / base_seconds.at(row.column));
-  for (const auto& row : runs) // each column once
-    if (is_plane(row.configuration) == is_plane(configuration) && is_default(row) && row.repeat == 0 &&
-        row.configuration.resolution == reference_resolution)
-      base.push_back(base_seconds.at(row.column));
+  for (const auto& [name, seconds] : base_seconds)
+    if (in_plane.at(name) == is_plane(configuration)) base.push_back(seconds);
   return mean_of(over_base) * mean_of(base);
 }
 

@@ -31,8 +31,8 @@ public:
   explicit ChartData(std::vector<ChartRow> rows);
 
   const std::vector<ChartPoint>& points() const { return all; }
-  /// Highest resolution in the default configuration: that of the reference.
-  double finest() const { return reference_resolution; }
+  /// Resolution of the reference, the highest in the default configuration: of the column of the flow where it is least.
+  double finest(bool plane) const;
   /// Errors of a run against the finest of its column: run / finest - 1.
   HeightRadius error(const ChartRow& row) const;
   /// Errors of a configuration as in ChartPoint, without one column; of no run: infinite.
@@ -46,10 +46,11 @@ private:
   double cost_over_all(const Configuration& configuration) const;
 
   std::vector<ChartRow> runs;
-  double reference_resolution = 0;
-  std::map<std::string, HeightRadius> reference; ///< by column
-  std::map<std::string, double> base_seconds;    ///< by column, of its coarsest default run
-  std::map<Configuration, double> rate;          ///< particle-steps per second, by what changes it
+  std::map<std::string, double> reference_resolution; ///< by column
+  std::map<std::string, bool> in_plane;               ///< by column: its flow
+  std::map<std::string, HeightRadius> reference;      ///< by column
+  std::map<std::string, double> base_seconds;         ///< by column, of its coarsest default run
+  std::map<Configuration, double> rate;               ///< particle-steps per second, by what changes it
   std::vector<ChartPoint> all;
 };
 

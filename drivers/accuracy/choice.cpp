@@ -29,7 +29,7 @@ double price(const ChartPoint& p) {
 std::vector<ChartPoint> offered(const ChartData& data, bool plane) {
   std::vector<ChartPoint> points;
   for (const auto& p : data.points())
-    if (is_offered(p, plane, data.finest())) points.push_back(p);
+    if (is_offered(p, plane, data.finest(plane))) points.push_back(p);
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return price(a) < price(b); });
   return points;
 }
@@ -96,7 +96,7 @@ Interval calibrate_interval(const ChartData& data, bool plane) {
   };
   for (const auto& fine : data.rows()) {
     if (fine.failed || is_plane(fine.configuration) != plane || !has_usual_scheme(fine.configuration) ||
-        fine.configuration.resolution >= data.finest() || fine.configuration.material != "simsand")
+        fine.configuration.resolution >= data.finest(plane) || fine.configuration.material != "simsand")
       continue;
     const auto error = data.error(fine);
     auto chart = data.worst_error(fine.configuration, fine.column);
@@ -111,7 +111,7 @@ Interval calibrate_interval(const ChartData& data, bool plane) {
   }
   if (heights.empty())
     throw std::runtime_error("the chart's data hold no pair of runs that differ in resolution alone");
-  return {{bound_of_95(heights), bound_of_95(radii)}, int(heights.size())};
+  return {{std::max(1.0, bound_of_95(heights)), std::max(1.0, bound_of_95(radii))}, int(heights.size())};
 }
 
 double half_width(double factor, double chart_error, double difference) {

@@ -34,7 +34,7 @@ struct Interval {
 };
 
 /// The factors for which 95 % of the pairs of a run and a run of about 1.6 times its spacing, of one kind and column, hold
-/// the finest run. The chart's error is taken without the pair's own column.
+/// the finest run, and not below 1. The chart's error is taken without the pair's own column.
 Interval calibrate_interval(const ChartData& data, bool plane);
 
 /// Half width for one quantity.

@@ -42,7 +42,7 @@ std::vector<double> last(const std::vector<double>& values, std::size_t count) {
 
 double Outline::at(double radius) const {
   const auto above = std::upper_bound(radii.begin(), radii.end(), radius);
-  if (above == radii.end()) return 0;
+  if (above == radii.end()) return radius == radii.back() ? heights.back() : 0;
   if (above == radii.begin()) return heights.front();
   const auto k = std::size_t(above - radii.begin());
   const double part = (radius - radii[k - 1]) / (radii[k] - radii[k - 1]);

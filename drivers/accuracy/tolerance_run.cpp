@@ -37,7 +37,7 @@ Words reasons(const Choice& choice, const ChartData& data, const host::Scene& sc
       percent(tolerance), choice.meeting, choice.considered, described(c), c.resolution));
   lines.push_back(fmt::format(
       "spacing {:.4g} mm; charted error {} (single runs, worst of {} columns, against {:g} a side)",
-      1e3 * side / needed, errors_of(choice.point), choice.point.columns, data.finest()));
+      1e3 * side / needed, errors_of(choice.point), choice.point.columns, data.finest(is_plane(c))));
   if (needed > c.resolution)
     lines.push_back(fmt::format("finer than charted by {:.3g}, as the grain is small against the column",
                                 needed / c.resolution));
