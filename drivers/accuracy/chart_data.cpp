@@ -109,7 +109,8 @@ HeightRadius ChartData::error(const ChartRow& row) const {
   return {row.height / at->second.height - 1, row.radius / at->second.radius - 1};
 }
 
-HeightRadius ChartData::worst_error(const Configuration& configuration, const std::string& without) const {
+std::pair<std::vector<double>, std::vector<double>>
+ChartData::column_errors(const Configuration& configuration, const std::string& without) const {
   std::map<std::string, std::vector<double>> heights, radii;
   for (const auto& row : runs) {
     if (row.configuration != configuration || row.column == without || row.failed) continue;
@@ -117,13 +118,28 @@ HeightRadius ChartData::worst_error(const Configuration& configuration, const st
     heights[row.column].push_back(e.height);
     radii[row.column].push_back(e.radius);
   }
-  if (heights.empty()) return {INFINITY, INFINITY};
-  HeightRadius worst;
+  std::vector<double> h, r;
   for (const auto& [name, values] : heights) {
-    worst.height = std::max(worst.height, root_mean_square(values));
-    worst.radius = std::max(worst.radius, root_mean_square(radii[name]));
+    h.push_back(root_mean_square(values));
+    r.push_back(root_mean_square(radii[name]));
   }
-  return worst;
+  std::sort(h.begin(), h.end());
+  std::sort(r.begin(), r.end());
+  return {h, r};
+}
+
+HeightRadius ChartData::worst_error(const Configuration& configuration, const std::string& without) const {
+  const auto [h, r] = column_errors(configuration, without);
+  return h.empty() ? HeightRadius{INFINITY, INFINITY} : HeightRadius{h.back(), r.back()};
+}
+
+HeightRadius ChartData::typical_error(const Configuration& configuration, const std::string& without) const {
+  const auto [h, r] = column_errors(configuration, without);
+  if (h.empty()) return {INFINITY, INFINITY};
+  const auto middle = [](const std::vector<double>& v) {
+    return (v[(v.size() - 1) / 2] + v[v.size() / 2]) / 2;
+  };
+  return {middle(h), middle(r)};
 }
 
 double ChartData::seconds_of(const ChartRow& row) const {
@@ -144,6 +160,7 @@ ChartPoint ChartData::point_of(const Configuration& configuration) const {
   ChartPoint point;
   point.configuration = configuration;
   point.error = worst_error(configuration);
+  point.typical = typical_error(configuration);
   std::map<std::string, std::vector<double>> heights, radii;
   std::vector<double> h, r, outline, dem_h, dem_r, dem_outline, steps;
   for (const auto& row : runs) {
@@ -178,7 +195,8 @@ void write_points(const std::filesystem::path& file, const ChartData& data) {
   std::ofstream out(file);
   out << "geometry,material,precision,stiffness_scale,step_factor,smoothing_length,resolution,columns,runs,"
          "failures,"
-         "particle_steps,seconds,height_error,radius_error,height_mean,radius_mean,height_scatter,radius_"
+         "particle_steps,seconds,height_error,radius_error,height_typical,radius_typical,height_mean,radius_"
+         "mean,height_scatter,radius_"
          "scatter,"
          "outline_error,dem_height_error,dem_radius_error,dem_outline_error\n";
   for (const auto& p : data.points()) {
@@ -186,9 +204,9 @@ void write_points(const std::filesystem::path& file, const ChartData& data) {
     out << fmt::format("{},{},{},{:g},{:g},{:g},{:g},{},{},{}", c.geometry, c.material, c.precision,
                        c.stiffness_scale, c.step_factor, c.smoothing_length, c.resolution, p.columns, p.runs,
                        p.failures);
-    for (const double value :
-         {p.particle_steps, p.seconds, p.error.height, p.error.radius, p.mean.height, p.mean.radius,
-          p.scatter.height, p.scatter.radius, p.outline_error, p.dem.height, p.dem.radius, p.dem_outline})
+    for (const double value : {p.particle_steps, p.seconds, p.error.height, p.error.radius, p.typical.height,
+                               p.typical.radius, p.mean.height, p.mean.radius, p.scatter.height,
+                               p.scatter.radius, p.outline_error, p.dem.height, p.dem.radius, p.dem_outline})
       out << (std::isfinite(value) ? fmt::format(",{:.4g}", value) : ",");
     out << '\n';
   }

@@ -17,6 +17,7 @@ struct ChartPoint {
   Configuration configuration;
   int columns = 0, runs = 0, failures = 0;
   HeightRadius error; ///< root mean square of the column where it is largest: what a single run may be off by
+  HeightRadius typical;       ///< the same of the middle column
   HeightRadius mean, scatter; ///< mean error with its sign; deviation of single runs from their column's mean
   double outline_error = 0;   ///< mean area between outlines, over r0 h0
   HeightRadius dem;           ///< mean magnitude against discrete elements; NaN where there is none
@@ -37,9 +38,13 @@ public:
   HeightRadius error(const ChartRow& row) const;
   /// Errors of a configuration as in ChartPoint, without one column; of no run: infinite.
   HeightRadius worst_error(const Configuration& configuration, const std::string& without = "") const;
+  HeightRadius typical_error(const Configuration& configuration, const std::string& without = "") const;
   const std::vector<ChartRow>& rows() const { return runs; }
 
 private:
+  /// Root mean squares by column, in ascending order each.
+  std::pair<std::vector<double>, std::vector<double>> column_errors(const Configuration& configuration,
+                                                                    const std::string& without) const;
   void find_references();
   ChartPoint point_of(const Configuration& configuration) const;
   double seconds_of(const ChartRow& row) const;

@@ -99,7 +99,8 @@ std::vector<ChartRun> chart_runs(bool quick) {
   List list;
   list.add(columns, {}, {8, 10}, 1);
   list.add(columns, {}, {12.5, 16, 20, 25}, 2);
-  list.add(columns, {}, {fine, finest}, 1);
+  list.add(columns, {}, {fine}, 1);
+  list.add(columns, {}, {finest}, 2);
   add_materials(list);
   add_scheme(list);
   add_solid(list);

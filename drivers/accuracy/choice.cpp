@@ -45,19 +45,19 @@ bool meets_from_here(const std::vector<ChartPoint>& points, const ChartPoint& po
 [[noreturn]] void refuse(const std::vector<ChartPoint>& points, double tolerance) {
   const ChartPoint* best = nullptr;
   for (const auto& p : points)
-    if (p.failures == 0 && (!best || p.error.larger() < best->error.larger())) best = &p;
+    if (p.failures == 0 && (!best || p.typical.larger() < best->typical.larger())) best = &p;
   if (!best) throw std::runtime_error("--tolerance: the chart's data hold no configuration for this flow");
   throw std::runtime_error(fmt::format("--tolerance {:.3g}%: expected a tolerance that the chart's data can "
                                        "promise, found none that meets it; the best is "
                                        "{:.2g}%, by {}, {:g} particles a side",
-                                       100 * tolerance, 100 * best->error.larger(),
+                                       100 * tolerance, 100 * best->typical.larger(),
                                        described(best->configuration), best->configuration.resolution));
 }
 
-/// The value below which 95 % lie.
-double bound_of_95(std::vector<double> values) {
+/// The value below which 90 % lie.
+double bound_of_90(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, std::size_t(std::ceil(0.95 * double(values.size()))) - 1)];
+  return values[std::min(values.size() - 1, std::size_t(std::ceil(0.9 * double(values.size()))) - 1)];
 }
 
 bool are_companions(const Configuration& fine, const Configuration& coarse) {
@@ -68,7 +68,7 @@ bool are_companions(const Configuration& fine, const Configuration& coarse) {
 } // namespace
 
 bool meets(const ChartPoint& p, double tolerance) {
-  return p.failures == 0 && p.error.larger() <= tolerance;
+  return p.failures == 0 && p.typical.larger() <= tolerance;
 }
 
 Choice choose(const ChartData& data, bool plane, double tolerance) {
@@ -82,7 +82,8 @@ Choice choose(const ChartData& data, bool plane, double tolerance) {
     if (good && !found) found = &p;
     if (!good && !found) choice.cheaper = p;
     const bool simpler = p.configuration.material != "simsand";
-    if (simpler && (!choice.simple || p.error.larger() < choice.simple->error.larger())) choice.simple = p;
+    if (simpler && (!choice.simple || p.typical.larger() < choice.simple->typical.larger()))
+      choice.simple = p;
   }
   if (!found) refuse(points, tolerance);
   choice.point = *found;
@@ -99,8 +100,7 @@ Interval calibrate_interval(const ChartData& data, bool plane) {
         fine.configuration.resolution >= data.finest(plane) || fine.configuration.material != "simsand")
       continue;
     const auto error = data.error(fine);
-    auto chart = data.worst_error(fine.configuration, fine.column);
-    if (!std::isfinite(chart.height)) chart = data.worst_error(fine.configuration); // the only column
+    const auto chart = data.worst_error(fine.configuration);
     for (const auto& coarse : data.rows()) {
       if (coarse.failed || coarse.column != fine.column ||
           !are_companions(fine.configuration, coarse.configuration))
@@ -111,7 +111,7 @@ Interval calibrate_interval(const ChartData& data, bool plane) {
   }
   if (heights.empty())
     throw std::runtime_error("the chart's data hold no pair of runs that differ in resolution alone");
-  return {{std::max(1.0, bound_of_95(heights)), std::max(1.0, bound_of_95(radii))}, int(heights.size())};
+  return {{std::max(1.0, bound_of_90(heights)), std::max(1.0, bound_of_90(radii))}, int(heights.size())};
 }
 
 double half_width(double factor, double chart_error, double difference) {

@@ -18,7 +18,7 @@ struct Choice {
 
 /// Among the configurations of one flow: those of SIMSAND or a simpler material, with the scheme's own numbers (step factor,
 /// smoothing length), without failures, coarser than the finest. One meets the tolerance where the errors of both h_f and
-/// r_f are below it in every column of the chart, and those of all finer ones of its kind as well, as a small error at one
+/// r_f are below it in the middle column of the chart, and those of all finer ones of its kind as well, as a small error at one
 /// resolution alone is luck. Anything but the default must save a tenth of the cost. Throws std::runtime_error naming the
 /// best there is if none meets it.
 Choice choose(const ChartData& data, bool plane, double tolerance);
@@ -33,8 +33,8 @@ struct Interval {
   int pairs = 0; ///< of runs of the chart that the factors rest on
 };
 
-/// The factors for which 95 % of the pairs of a run and a run of about 1.6 times its spacing, of one kind and column, hold
-/// the finest run, and not below 1. The chart's error is taken without the pair's own column.
+/// The factors for which 90 % of the pairs of a run and a run of about 1.6 times its spacing, of one kind and column, hold
+/// the finest run, and not below 1. The chart's error is that of the worst column.
 Interval calibrate_interval(const ChartData& data, bool plane);
 
 /// Half width for one quantity.

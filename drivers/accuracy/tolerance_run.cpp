@@ -23,7 +23,7 @@ std::string percent(double share) {
 }
 
 std::string errors_of(const ChartPoint& p) {
-  return fmt::format("h_f {}, r_f {}", percent(p.error.height), percent(p.error.radius));
+  return fmt::format("h_f {}, r_f {}", percent(p.typical.height), percent(p.typical.radius));
 }
 
 /// What was chosen and why, line by line.
@@ -32,12 +32,14 @@ Words reasons(const Choice& choice, const ChartData& data, const host::Scene& sc
   const double needed = scene_resolution(scene, c.resolution), side = size_of(scene.column);
   Words lines;
   lines.push_back(fmt::format(
-      "tolerance {}: {} of {} charted configurations meet it in every column; the cheapest is {}, {:g} "
+      "tolerance {}: {} of {} charted configurations meet it in the middle column; the cheapest is {}, {:g} "
       "particles a side of sqrt(r0 h0)",
       percent(tolerance), choice.meeting, choice.considered, described(c), c.resolution));
-  lines.push_back(fmt::format(
-      "spacing {:.4g} mm; charted error {} (single runs, worst of {} columns, against {:g} a side)",
-      1e3 * side / needed, errors_of(choice.point), choice.point.columns, data.finest(is_plane(c))));
+  lines.push_back(fmt::format("spacing {:.4g} mm; charted error {} (single runs, middle of {} columns, worst "
+                              "h_f {}, r_f {}; against {:g} a side)",
+                              1e3 * side / needed, errors_of(choice.point), choice.point.columns,
+                              percent(choice.point.error.height), percent(choice.point.error.radius),
+                              data.finest(is_plane(c))));
   if (needed > c.resolution)
     lines.push_back(fmt::format("finer than charted by {:.3g}, as the grain is small against the column",
                                 needed / c.resolution));
@@ -46,7 +48,7 @@ Words reasons(const Choice& choice, const ChartData& data, const host::Scene& sc
                                 described(choice.cheaper->configuration),
                                 choice.cheaper->configuration.resolution, errors_of(*choice.cheaper),
                                 meets(*choice.cheaper, tolerance) ? " but not at finer resolutions" : ""));
-  if (choice.simple && choice.simple->error.larger() > tolerance)
+  if (choice.simple && choice.simple->typical.larger() > tolerance)
     lines.push_back(fmt::format("SIMSAND stays: {} errs by {} at best", choice.simple->configuration.material,
                                 errors_of(*choice.simple)));
   for (const auto& remark : beyond_the_chart(scene)) lines.push_back("not in the chart: " + remark);
@@ -101,7 +103,7 @@ void print_estimates(const std::vector<Estimate>& all, const Interval& interval,
                e.companion);
     within = within && e.half_width <= tolerance;
   }
-  fmt::print("The intervals held the finest run in 95 % of {} pairs of the chart.{}\nestimate: {}\n",
+  fmt::print("The intervals held the finest run in 90 % of {} pairs of the chart.{}\nestimate: {}\n",
              interval.pairs,
              within ? ""
                     : fmt::format("\nThey are wider than the tolerance of {}: the run may miss it.",

@@ -30,7 +30,7 @@ SCENES = {
     "ts_dense_a0.5": ("ts_dense_a0.5", []),
     "ts_loose_large": ("ts_loose_a1", ["column.radius=0.2", "column.height=0.2", "output.grain_diameter=0.0118",
                                        "end.time=3.0"]),
-    "ss_dense_a1.5": ("ss_dense_a1", ["column.radius=0.04", "column.height=0.06"]),
+    "ss_dense_a1": ("ss_dense_a1", []),
     "es_loose_smooth_floor": ("es_loose_a1", ["floor.friction=0.3"]),
     "ts_dense_removed_gate": ("ts_dense_a1", ["column.radius=0.1", "column.height=0.08", "gate.motion=remove",
                                               "output.grain_diameter=0.005", "end.time=2.0"]),
