@@ -51,10 +51,10 @@ TEST(AccuracyChart, WritesItsTablesAndPicturesAndResumes) {
 
 TEST(ToleranceRun, ChoosesRunsAndEstimates) {
   const auto& program = chart();
-  const auto command = fmt::format("run '{}' --tolerance 12% --data data -o tolerance -q", coarse);
+  const auto command = fmt::format("run '{}' --tolerance 10% --data data -o tolerance -q", coarse);
   const auto outcome = program.run(command);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "tolerance 12 %: 2 of 4 charted configurations meet it")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "tolerance 10 %: 2 of 4 charted configurations meet it")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "stiffness scale 0.1, 8 particles a side")) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "The intervals held the finest run in 90 %")) << outcome.out;
   const drivers::CsvTable table((program.folder / "tolerance/accuracy.csv").string());
