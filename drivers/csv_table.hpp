@@ -22,6 +22,8 @@ public:
   std::size_t column(std::string_view name) const;
   /// The number in a cell; an error that names line and column if it is none, or not finite.
   double number(std::size_t row, std::size_t column) const;
+  /// What a cell holds; may be empty.
+  const std::string& text(std::size_t row, std::size_t column) const { return cells[row][column]; }
   /// All numbers of a column.
   std::vector<double> numbers(std::string_view column) const;
   /// A note that is a number; an error without it.

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
 #include <omp.h>
@@ -86,6 +87,7 @@ Summary summarise(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
       {{"steps", "1"}, double(s.steps)},
       {{"list_rebuilds", "1"}, double(s.rebuilds)},
       {{"wall_clock", "s"}, wall_seconds},
+      {{"time_processor", "s"}, double(std::clock()) / CLOCKS_PER_SEC}, // of this process, all threads
       {{"rate", "particle-steps/s"}, double(s.steps) * p.count / wall_seconds},
       {{"threads", "1"}, double(omp_get_max_threads())},
       {{"memory_per_particle", "B"}, double(host::memory_of(s).data) / p.count},

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line.
 #include "calibration/calibrate.hpp"
+#include "calibration/propagate.hpp"
 #include "drivers/abaqus_deck.hpp"
+#include "drivers/accuracy/tolerance_run.hpp"
 #include "drivers/element/command.hpp"
 #include "drivers/info.hpp"
 #include "drivers/interrupt.hpp"
@@ -38,12 +40,45 @@ void resume_run(const std::string& what, const std::string& folder, drivers::Run
   drivers::run_scene(found->scene, options);
 }
 
+std::string data_folder() {
+  return std::filesystem::weakly_canonical(host::beside_program("../data")).string();
+}
+
+/// Runs whose resolution is chosen, or that are many: `action` is what `simsand run` then does instead of one run.
+void add_run_kinds(CLI::App& run, drivers::ToleranceOptions& one, calibration::PropagateOptions& many) {
+  one.data = many.study.data = data_folder();
+  many.study.folder.clear();
+  many.study.parallel = int(std::thread::hardware_concurrency());
+  auto* tolerance = run.add_option_function<std::string>(
+                           "--tolerance",
+                           [&one](const std::string& text) { one.tolerance = drivers::read_tolerance(text); },
+                           "as 5%: chooses resolution, geometry, material, stiffness scale and precision for "
+                           "h_f and r_f within it, and "
+                           "estimates their error (drivers/charts/ACCURACY.md)")
+                        ->excludes("--resume")
+                        ->excludes("--plan");
+  run.add_option("--data", one.data, "data folder of the project, with the chart of --tolerance");
+  auto* posterior =
+      run.add_option("--posterior", many.posterior,
+                     "fit.h5 of simsand calibrate: runs the scene for sets of parameters drawn from it")
+          ->excludes(tolerance)
+          ->excludes("--resume")
+          ->excludes("--plan");
+  run.add_option("-n,--sets", many.sets, "sets drawn")->check(CLI::Range(2, 100000))->needs(posterior);
+  run.add_option("--seed", many.seed, "of the draw")->needs(posterior);
+  run.add_option("-j,--jobs", many.study.parallel, "sets at a time")
+      ->check(CLI::Range(1, 1024))
+      ->needs(posterior);
+}
+
 void add_run(CLI::App& app) {
   static std::string file, folder; // live as long as the program: CLI11 writes into them
   static int threads = 0;
   static std::vector<std::string> settings;
   static drivers::RunOptions options;
   static bool resume = false, plan = false;
+  static drivers::ToleranceOptions tolerance;
+  static calibration::PropagateOptions posterior;
   auto* run = app.add_subcommand("run", "Run a scene: a column collapses and comes to rest");
   run->add_option("SCENE", file,
                   "scene file (.toml), or a result file (.h5) whose stored scene is run again; "
@@ -58,9 +93,24 @@ void add_run(CLI::App& app) {
   auto* go_on = run->add_flag("--resume", resume, "go on with an interrupted run from its checkpoint");
   run->add_flag("--plan", plan, "only say what the run will take: particles, steps, time, memory, disk")
       ->excludes(go_on);
+  add_run_kinds(*run, tolerance, posterior);
   run->callback([] {
     if (threads > 0) omp_set_num_threads(threads);
+    if (!posterior.posterior.empty()) {
+      posterior.scene = file;
+      posterior.settings = settings;
+      posterior.study.folder = folder;
+      posterior.study.quiet = options.quiet;
+      return calibration::propagate(posterior);
+    }
     drivers::listen_for_signals();
+    if (tolerance.tolerance > 0) {
+      tolerance.scene = file;
+      tolerance.settings = settings;
+      tolerance.folder = folder;
+      drivers::run_to_tolerance(tolerance, options);
+      return;
+    }
     if (resume) return resume_run(file, folder, options);
     auto scene = drivers::read_scene(file, settings);
     if (!folder.empty()) scene.output_folder = folder;

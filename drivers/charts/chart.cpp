@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program of the charts: comparisons that support choices of the product and are no part of it.
+#include "drivers/accuracy/chart.hpp"
 #include "drivers/charts/cycles.hpp"
 #include "drivers/charts/element_chart.hpp"
 #include "drivers/charts/increments.hpp"
 #include "drivers/charts/random_states.hpp"
 #include "drivers/charts/stability.hpp"
+#include "host/vumat_library.hpp"
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fmt/format.h>
 #include <omp.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <thread>
 
 namespace {
 
@@ -88,13 +92,27 @@ void add_stability(CLI::App& app) {
   stability->callback([] { charts::chart_stability(options); });
 }
 
+void add_accuracy(CLI::App& app) {
+  static drivers::AccuracyChartOptions options;
+  auto& study = options.study;
+  study.data = std::filesystem::weakly_canonical(host::beside_program("../data")).string();
+  study.parallel = int(std::thread::hardware_concurrency());
+  auto* accuracy = app.add_subcommand("accuracy", "Cost of a collapse against the error of its deposit");
+  accuracy->add_option("-o,--output", study.folder, "folder for runs, tables and pictures")
+      ->capture_default_str();
+  accuracy->add_option("-j,--jobs", study.parallel, "runs at a time")->check(CLI::Range(1, 1024));
+  accuracy->add_option("--data", study.data, "data folder of the project");
+  accuracy->add_flag("--quick", options.quick, "a few coarse runs, to see it work");
+  accuracy->add_flag("-q,--quiet", study.quiet, "no progress");
+  accuracy->callback([] { drivers::chart_accuracy(options); });
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("simsand"));
   spdlog::set_pattern("%v");
-  CLI::App app{"Charts of SIMSAND: what its choices rest on (drivers/charts/INTEGRATORS.md)",
-               "simsand chart"};
+  CLI::App app{"Charts of SIMSAND: what its choices rest on (drivers/charts)", "simsand chart"};
   app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("simsand chart: {}; see simsand chart --help\n", error.what());
@@ -109,6 +127,7 @@ int main(int argc, char** argv) {
     add_random(app);
     add_cycles(app);
     add_stability(app);
+    add_accuracy(app);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);

@@ -5,6 +5,7 @@
 #include "drivers/study/jobs.hpp"
 #include "host/output.hpp"
 #include "host/result_read.hpp"
+#include "host/vumat_library.hpp"
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -60,7 +61,7 @@ bool can_resume(const StudyRun& run, const host::Scene& scene) {
 
 Job job_of(const StudyRun& run, const host::Scene& scene) {
   const double particles = particles_of(scene);
-  const auto program = fs::read_symlink("/proc/self/exe").string();
+  const auto program = host::beside_program("simsand");
   Job job{run.name,
           {program, "run", run.scene, "--threads", "1", "--quiet"},
           run.folder + "/run.log",
