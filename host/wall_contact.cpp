@@ -99,7 +99,6 @@ void find_shares(const Simulation<Geometry>& s, int i, double kick, const Point<
       add_to(near.change[k], kick, near.split.by_surface[k]);
       add_to(rest, -1, near.change[k]);
     }
-
   }
   const auto nearest = std::ranges::min_element(near.distance) - near.distance.begin();
   add_to(near.change[nearest], 1, rest);
@@ -196,7 +195,7 @@ void move_one(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, doubl
     t.before[a] = p.velocity[a][i];
     push[a] = kick * p.wall_acceleration[a][i];
     t.v[a] = t.before[a] + kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
-                                        p.wall_acceleration[a][i] - (a == D - 1 ? s.scene.gravity : 0));
+                                   p.wall_acceleration[a][i] - (a == D - 1 ? s.scene.gravity : 0));
   }
   near.find(walls.now, t.from, s.kernel.support);
   if (near.surface.empty()) { // behind an edge; walls out of reach do not push

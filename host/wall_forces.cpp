@@ -23,7 +23,8 @@ template <class Geometry, int D = Geometry::dimension>
 Point<D> acceleration(const Kernel<D>& kernel, const Records<Geometry>& records, int i, int j) {
   const auto side = side_of(records, i);
   PairSums<Geometry, double> sums;
-  add_pair<false>(reach_of(kernel, side, records.motion[j]), side, records.motion[j], records.stress[j], sums);
+  add_pair<false>(reach_of(kernel, side, records.motion[j]), side, records.motion[j], records.stress[j],
+                  sums);
   const double inverse_weight = Geometry::hoop ? 1 / side.weight : 1;
   Point<D> a{};
   for (int c = 0; c < D; ++c) {

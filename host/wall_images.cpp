@@ -100,7 +100,9 @@ void reflect_fields(const Point<D>& n, double depth, const Scene& scene, StressR
   constexpr double nothing[D][D] = {};
   weight_across<D>(n, depth, scene, added);
   reflect_symmetric<D>(n, 1, added, component<D>, record.stress);
-  const auto rate = [](int a, int b) { return a == b ? a : component<D>(a, b) - (D == 2 ? 1 : 0); }; // no hoop rate
+  const auto rate = [](int a, int b) {
+    return a == b ? a : component<D>(a, b) - (D == 2 ? 1 : 0);
+  }; // no hoop rate
   reflect_symmetric<D>(n, 2, nothing, rate, record.strain_rate);
 }
 

@@ -19,7 +19,8 @@ template <class Real, int N> struct Points {
 };
 
 /// Calls f(lanes, column) for what a substep changes.
-template <class Real, int N, class F> void each_changed(Progress<Real, N>& at, Points<Real, N>& a, const F& f) {
+template <class Real, int N, class F>
+void each_changed(Progress<Real, N>& at, Points<Real, N>& a, const F& f) {
   for (int c = 0; c < N; ++c) f(at.point.stress[c], a.stress[c]);
   f(at.point.void_ratio, a.void_ratio);
   f(at.point.plastic_strain, a.plastic_strain);
@@ -124,7 +125,8 @@ template <class Real, int N> void put_points(Work<Real, N>& w, Points<Real, N>& 
 
 /// A substep of the points listed. Afterwards those with strain left are listed.
 template <class Real, int N>
-__attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
+__attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list,
+                                         Work<Real, N>* works) {
   const int count = std::exchange(list.count, 0);
   list.fill(count);
   Team<Real, N> team;
@@ -139,8 +141,8 @@ __attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N
 /// The whole increment of `count` points of a block from one on. Afterwards those with strain left are listed; if
 /// few yield they are left for a round where they fill their registers.
 template <class Real, int N>
-__attribute__((flatten)) void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count, Points<Real, N>& a,
-                 List<Real>& list, Work<Real, N>* works) {
+__attribute__((flatten)) void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count,
+                                          Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
   Team<Real, N> team;
   each_row(b, from, count, [&](const auto& row, int i) {
     load_points(b, row, works[i]);
@@ -194,9 +196,9 @@ void store_points(const Block<Real>& b, const Row& row, const Points<Real, N>& a
 
 /// What a pass gave; what lanes refused is updated alone.
 template <class Real, int N>
-__attribute__((flatten)) void store_pass(const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
-  each_row(b, from, count,
-           [&](const auto& row, int i) { store_points(b, row, a, i * lane_count<Real>); });
+__attribute__((flatten)) void store_pass(const Block<Real>& b, int from, int count,
+                                         const Points<Real, N>& a) {
+  each_row(b, from, count, [&](const auto& row, int i) { store_points(b, row, a, i * lane_count<Real>); });
 }
 
 /// Up to points_of_pass points from one on.

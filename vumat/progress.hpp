@@ -187,8 +187,7 @@ template <class Real, int N> void stay_apart(Progress<Real, N>& at) {
                            (volumetric <= at.point.separation_strain);
   const Lane gap = max(at.point.separation_strain - volumetric, Lane(tiny<Real>));
   for (int c = 0; c < N; ++c) at.point.stress[c] = select(apart, zero, at.point.stress[c]);
-  at.point.void_ratio =
-      select(apart, void_ratio_after(at.point.void_ratio, volumetric), at.point.void_ratio);
+  at.point.void_ratio = select(apart, void_ratio_after(at.point.void_ratio, volumetric), at.point.void_ratio);
   at.point.separation_strain = select(apart, gap, at.point.separation_strain);
   at.done = select(apart, Lane(Real(1)), at.done);
   at.status = select(apart, Lane(Real(int(Status::stress_free))), at.status);

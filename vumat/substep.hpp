@@ -22,7 +22,7 @@ template <class Real, int N> struct Substep {
 template <class Real, int N> struct Trial {
   Increment<Real> in;
   SymmetricTensor<Real, N> s_old, s_trial, e_dev; ///< deviators
-  Real measure;                            ///< y, not bounded
+  Real measure;                                   ///< y, not bounded
   Pressure<Real> pressure;
   Real critical, density; ///< void ratio e_c, ln (e_c / e)
   Real tangent, peak;     ///< of the peak friction angle; M_p

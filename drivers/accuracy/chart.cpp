@@ -76,7 +76,7 @@ std::map<std::string, Outline> finest_outlines(const std::vector<Done>& runs) {
 void compare_with_dem(const Done& done, const fs::path& data, ChartRow& row) {
   const auto file = data / "dem/results" / done.run.column.dem;
   if (done.run.column.dem.empty() || !fs::exists(file)) return;
-  const auto& [radius, height] = done.column;
+  const double radius = done.column.radius, height = done.column.height;
   const auto dem = read_dem_deposit(file, radius);
   row.dem_height = row.height / dem.height - 1;
   row.dem_radius = row.radius / dem.radius - 1;

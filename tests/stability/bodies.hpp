@@ -2,13 +2,11 @@
 // Elastic bodies that fly freely in the plane, and what tells that one has come apart in numbers only.
 #pragma once
 #include "host/geometry.hpp"
-#include "host/simulation.hpp"
+#include "tests/stability/stages.hpp"
 #include <cmath>
 #include <functional>
 
 namespace stability {
-
-using Place = std::array<double, 2>;
 
 /// Elastic, 1 MPa, 0.3, 1000 kg/m3: waves of 37 m/s.
 inline constexpr double body_density = 1000; // kg/m3
@@ -42,7 +40,7 @@ inline host::Simulation<host::PlaneStrain> make_body(double spacing, double exte
     const Place v = velocity(places[i]);
     p.id[i] = i;
     for (int a = 0; a < 2; ++a) {
-      p.position[a][i] = p.initial_position[a][i] = places[i][a];
+      p.position[a][i] = places[i][a];
       p.velocity[a][i] = v[a];
     }
     p.density[i] = body_density;
@@ -57,14 +55,14 @@ inline host::Simulation<host::PlaneStrain> make_body(double spacing, double exte
 struct Bonds {
   double longest = 0, shortest = 1e9;
 };
-inline Bonds bonds_of(const host::Simulation<host::PlaneStrain>& s) {
+inline Bonds bonds_of(const host::Simulation<host::PlaneStrain>& s, const Places& lattice) {
   const auto& p = s.particles;
   const double dx = s.scene.spacing;
   Bonds bonds;
   for (int i = 0; i < p.count; ++i)
     for (int j = 0; j < i; ++j) {
-      const double then = std::hypot(p.initial_position[0][i] - p.initial_position[0][j],
-                                     p.initial_position[1][i] - p.initial_position[1][j]);
+      const auto &a = lattice.of(p, i), &b = lattice.of(p, j);
+      const double then = std::hypot(a[0] - b[0], a[1] - b[1]);
       if (then > 1.01 * dx) continue;
       const double now =
           std::hypot(p.position[0][i] - p.position[0][j], p.position[1][i] - p.position[1][j]) / dx;

@@ -4,7 +4,7 @@
 // difference (Monaghan 1992), no stress diffusion; stress by the host's own stage and material. Plane strain.
 #pragma once
 #include "host/geometry.hpp"
-#include "host/simulation.hpp"
+#include "tests/stability/stages.hpp"
 #include <cmath>
 #include <numbers>
 #include <omp.h>
@@ -30,6 +30,7 @@ struct Naive {
 inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naive = {}) {
   auto& p = s.particles;
   const double h = s.kernel.h;
+  keep_stages(p);
   host::move_gate(s.mirrors, s.scene, s.time);
   host::update_lists(s);
   host::update_wave_speed(p, s.scene.material, s.blocks);
@@ -67,12 +68,13 @@ inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naiv
     for (auto& component : *group) component.assign(component.size(), 0.0);
   each_pair([&](int i, int j, bool wall, double x, double y, double w) {
     const auto& r = s.records.stress[j];
+    const double* v = s.records.motion[j].velocity;
     const double rho = p.density[i], ratio = r.density; // V_j = m_j / rho_j
     double sum[3];                                      // sigma_i / rho_i^2 + sigma_j / rho_j^2, times rho_j
     constexpr int place[3] = {0, 1, 3};
     for (int c = 0; c < 3; ++c)
-      sum[c] = ratio * (p.stress[place[c]][i] / (rho * rho) + r.flux[place[c]] / (r.density * r.density));
-    const double approach = (p.velocity[0][i] - r.velocity[0]) * x + (p.velocity[1][i] - r.velocity[1]) * y;
+      sum[c] = ratio * (p.stress[place[c]][i] / (rho * rho) + r.stress[place[c]] / (r.density * r.density));
+    const double approach = (p.velocity[0][i] - v[0]) * x + (p.velocity[1][i] - v[1]) * y;
     const double viscous =
         approach < 0 ? naive.alpha * h * p.wave_speed[i] * approach / (x * x + y * y + 0.01 * h * h) : 0;
     auto& stress = wall ? p.wall_acceleration : p.stress_acceleration;

@@ -28,11 +28,13 @@ Response compress(double spacing) {
   auto s = host::start_simulation<PlaneStrain>(scene);
   s.mirrors.clear();
   auto& p = s.particles;
+  stability::keep_stages(p);
+  const stability::Places lattice(p);
   for (auto& state : p.state) std::ranges::fill(state, 0.0);
   for (int c = 0; c < 4; ++c) std::ranges::fill(p.stress[c], c < 3 ? -pressure : 0.0);
   host::update_stress(p, s.scene.material, {1e-12, 1e-12, 1e-12}, s.blocks);
   const auto plate = [&](int i) {
-    const double y = p.initial_position[1][i];
+    const double y = lattice.of(p, i)[1];
     return y < 2 * spacing ? 1 : (y > height - 2 * spacing ? -1 : 0);
   };
   Response out;

@@ -26,15 +26,16 @@ double growth(double stress) {
         return moves(x) ? Place{noise(random), noise(random)} : Place{};
       });
   auto& p = s.particles;
+  const stability::Places lattice(p);
   for (int c = 0; c < 3; ++c) p.stress[c].assign(p.padded(), stress);
   const double start = host::kinetic_energy(p);
   double most = 0;
   while (s.time < 0.02) {
     host::step(s);
     for (int i = 0; i < p.count; ++i)
-      if (!moves({p.initial_position[0][i], p.initial_position[1][i]}))
+      if (!moves(lattice.of(p, i)))
         for (int a = 0; a < 2; ++a) {
-          p.position[a][i] = p.initial_position[a][i];
+          p.position[a][i] = lattice.of(p, i)[a];
           p.velocity[a][i] = 0;
         }
     if (s.time > 0.018) most = std::max(most, host::kinetic_energy(p) / start);
@@ -54,12 +55,13 @@ TEST(Tension, NoiseDiesUnderCompressionAndGrowsUnderTension) {
 
 /// The time at which two next neighbours are half as far apart again, s; `until` if they never are.
 template <class Step> double time_of_crack(Simulation s, double until, Step&& step) {
+  const stability::Places lattice(s.particles);
   double next = 0;
   while (s.time < until) {
     step(s);
     if (s.time < next) continue;
     next += until / 100;
-    if (bonds_of(s).longest > 1.5) return s.time;
+    if (bonds_of(s, lattice).longest > 1.5) return s.time;
   }
   return until;
 }
