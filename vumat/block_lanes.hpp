@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of a block in lanes, in rounds of one substep: neighbours side by side in the first, then those that
-// have strain left. In each, points that yield are gathered for the plastic rule. What lanes refuse is updated one by
-// one. Every lane is alone with its numbers, so a point's answer depends neither on its neighbours nor on the
-// size of the block.
+// have strain left, gathered from columns. What lanes refuse is updated one by one. Every lane is alone with its
+// numbers, so a point's answer depends neither on its neighbours nor on the size of the block.
 #pragma once
 #include "vumat/block.hpp"
 #include "vumat/progress.hpp"
 
 namespace simsand {
-
-template <class Real> inline constexpr int vectors_of_pass = points_of_pass / lane_count<Real>;
 
 /// Points of a pass between their substeps, component by component; positions are from 0.
 template <class Real, int N> struct Points {
@@ -19,7 +16,8 @@ template <class Real, int N> struct Points {
 };
 
 /// Calls f(lanes, column) for what a substep changes.
-template <class Real, int N, class F> void each_changed(Progress<Real, N>& at, Points<Real, N>& a, const F& f) {
+template <class Real, int N, class F>
+void each_changed(Progress<Real, N>& at, Points<Real, N>& a, const F& f) {
   for (int c = 0; c < N; ++c) f(at.point.stress[c], a.stress[c]);
   f(at.point.void_ratio, a.void_ratio);
   f(at.point.plastic_strain, a.plastic_strain);
@@ -124,12 +122,13 @@ template <class Real, int N> void put_points(Work<Real, N>& w, Points<Real, N>& 
 
 /// A substep of the points listed. Afterwards those with strain left are listed.
 template <class Real, int N>
-__attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
+__attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N>& a, List<Real>& list,
+                                         Work<Real, N>* works) {
   const int count = std::exchange(list.count, 0);
   list.fill(count);
   Team<Real, N> team;
-  for (int i = 0; i < count; i += lane_count<Real>)
-    gather(a, list.position + i, *(team.member[team.count] = works + team.count)), ++team.count;
+  for (int i = 0; i < count; i += lane_count<Real>) team.member[team.count++] = works + i / lane_count<Real>;
+  for (int i = 0; i < team.count; ++i) gather(a, list.position + i * lane_count<Real>, works[i]);
   try_elastic(m, team);
   try_plastic(m, team);
   for (int i = 0; i < team.count; ++i) scatter(works[i], a, list.position + i * lane_count<Real>);
@@ -139,8 +138,8 @@ __attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N
 /// The whole increment of `count` points of a block from one on. Afterwards those with strain left are listed; if
 /// few yield they are left for a round where they fill their registers.
 template <class Real, int N>
-__attribute__((flatten)) void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count, Points<Real, N>& a,
-                 List<Real>& list, Work<Real, N>* works) {
+__attribute__((flatten)) void first_round(const Material<Real>& m, const Block<Real>& b, int from, int count,
+                                          Points<Real, N>& a, List<Real>& list, Work<Real, N>* works) {
   Team<Real, N> team;
   each_row(b, from, count, [&](const auto& row, int i) {
     load_points(b, row, works[i]);
@@ -194,9 +193,9 @@ void store_points(const Block<Real>& b, const Row& row, const Points<Real, N>& a
 
 /// What a pass gave; what lanes refused is updated alone.
 template <class Real, int N>
-__attribute__((flatten)) void store_pass(const Block<Real>& b, int from, int count, const Points<Real, N>& a) {
-  each_row(b, from, count,
-           [&](const auto& row, int i) { store_points(b, row, a, i * lane_count<Real>); });
+__attribute__((flatten)) void store_pass(const Block<Real>& b, int from, int count,
+                                         const Points<Real, N>& a) {
+  each_row(b, from, count, [&](const auto& row, int i) { store_points(b, row, a, i * lane_count<Real>); });
 }
 
 /// Up to points_of_pass points from one on.

@@ -10,6 +10,7 @@ namespace simsand {
 
 /// Points of one pass: no block that a host passes is longer than a few of them.
 inline constexpr int points_of_pass = 128;
+template <class Real> inline constexpr int vectors_of_pass = points_of_pass / lane_count<Real>;
 
 /// Shortest substep, as a share of the increment.
 inline constexpr double shortest_substep = 1. / ticks_per_increment;
@@ -78,7 +79,7 @@ void settle(Progress<Real, N>& at, const Substep<Lane, N>& end, const Mask<Lane>
 /// Lanes that go through the parts of a substep together.
 template <class Real, int N> struct Team {
   int count = 0;
-  Work<Real, N>* member[points_of_pass / lane_count<Real>];
+  Work<Real, N>* member[vectors_of_pass<Real>];
 
   template <class F> void each(const F& part) const {
     for (int i = 0; i < count; ++i) part(*member[i]);
@@ -187,8 +188,7 @@ template <class Real, int N> void stay_apart(Progress<Real, N>& at) {
                            (volumetric <= at.point.separation_strain);
   const Lane gap = max(at.point.separation_strain - volumetric, Lane(tiny<Real>));
   for (int c = 0; c < N; ++c) at.point.stress[c] = select(apart, zero, at.point.stress[c]);
-  at.point.void_ratio =
-      select(apart, void_ratio_after(at.point.void_ratio, volumetric), at.point.void_ratio);
+  at.point.void_ratio = select(apart, void_ratio_after(at.point.void_ratio, volumetric), at.point.void_ratio);
   at.point.separation_strain = select(apart, gap, at.point.separation_strain);
   at.done = select(apart, Lane(Real(1)), at.done);
   at.status = select(apart, Lane(Real(int(Status::stress_free))), at.status);

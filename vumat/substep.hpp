@@ -22,7 +22,7 @@ template <class Real, int N> struct Substep {
 template <class Real, int N> struct Trial {
   Increment<Real> in;
   SymmetricTensor<Real, N> s_old, s_trial, e_dev; ///< deviators
-  Real measure;                            ///< y, not bounded
+  Real measure;                                   ///< y, not bounded
   Pressure<Real> pressure;
   Real critical, density; ///< void ratio e_c, ln (e_c / e)
   Real tangent, peak;     ///< of the peak friction angle; M_p
@@ -37,7 +37,7 @@ template <class Real, int N> struct Flow {
   Real q, turn; ///< invariant of `direction`; 2 (1 - cos psi)
 };
 
-// The elastic trial in parts of one long function each: lanes run every part over many points before the next, so that
+// The elastic trial in parts, each with one long function: lanes run every part over many points before the next, so that
 // the processor finds work while a logarithm is under way.
 
 template <class Real, int N>
