@@ -132,7 +132,7 @@ template <class Real, int N> void newton(const Material<Real>& m, Team<Real, N> 
     team.each([&](W& w) { shift(m, w.*from, w.measure_step, w.end); });
     team.each([&](W& w) { evaluate(m, w.trial.in, w.end); });
   };
-  team.each([&](W& w) { first_candidate(m, w.trial.in, w.full); });
+  team.each([&](W& w) { first_candidate(m, w.trial.in, w.trial.pressure, w.full); });
   team.each([&](W& w) { evaluate(m, w.trial.in, w.full); });
   step(&W::full);
   step(&W::end);
