@@ -57,7 +57,9 @@ template <class Geometry> Plan plan(const host::Scene& scene, double burst) {
   plan.steps = plan.end / plan.step;
   plan.checkpoint = double(host::checkpoint_image(header_of(scene), s, {}).size());
   plan.memory = memory_in_use(); // the largest moment of a run is that of a checkpoint
-  constexpr double compressed = 0.85, names = 30e3, series = 100e3; // of the numbers of a snapshot; bytes
+  constexpr double compressed = 0.85, names = 30e3, column = 8e3; // of the numbers of a snapshot; bytes
+  const double series =
+      column * (13 + double(s.walls.size()) * (2 * Geometry::dimension + 3)); // of the time series
   const double numbers =
       2 * Geometry::dimension + Geometry::stress_components + 1 + double(s.particles.state.size());
   const double snapshots = std::floor(plan.end / scene.snapshot_interval) + 2;

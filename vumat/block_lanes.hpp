@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of a block in lanes, in rounds of one substep: neighbours side by side in the first, then those that
-// have strain left. In each, points that yield are gathered for the plastic rule. What lanes refuse is updated one by
-// one. Every lane is alone with its numbers, so a point's answer depends neither on its neighbours nor on the
-// size of the block.
+// have strain left, gathered from columns. What lanes refuse is updated one by one. Every lane is alone with its
+// numbers, so a point's answer depends neither on its neighbours nor on the size of the block.
 #pragma once
 #include "vumat/block.hpp"
 #include "vumat/progress.hpp"
 
 namespace simsand {
-
-template <class Real> inline constexpr int vectors_of_pass = points_of_pass / lane_count<Real>;
 
 /// Points of a pass between their substeps, component by component; positions are from 0.
 template <class Real, int N> struct Points {
@@ -130,8 +127,8 @@ __attribute__((flatten)) void next_round(const Material<Real>& m, Points<Real, N
   const int count = std::exchange(list.count, 0);
   list.fill(count);
   Team<Real, N> team;
-  for (int i = 0; i < count; i += lane_count<Real>)
-    gather(a, list.position + i, *(team.member[team.count] = works + team.count)), ++team.count;
+  for (int i = 0; i < count; i += lane_count<Real>) team.member[team.count++] = works + i / lane_count<Real>;
+  for (int i = 0; i < team.count; ++i) gather(a, list.position + i * lane_count<Real>, works[i]);
   try_elastic(m, team);
   try_plastic(m, team);
   for (int i = 0; i < team.count; ++i) scatter(works[i], a, list.position + i * lane_count<Real>);

@@ -157,11 +157,17 @@ void shift(const MaterialOf<Real>& m, const Candidate<Real>& from, Real measure_
   to.slopes = shifted(m, from.slopes, to.pressure.log_ratio - log_ratio);
 }
 
-/// The start as a guess of the end, with slopes near enough.
+/// A guess of the end: the start, or the trial where that compresses much; with slopes near enough.
 template <class Real>
-void first_candidate(const MaterialOf<Real>& m, const Increment<Real>& in, Candidate<Real>& c) {
-  const Real denser = 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end);
-  c.pressure = in.start;
+void first_candidate(const MaterialOf<Real>& m, const Increment<Real>& in, const Pressure<Real>& trial,
+                     Candidate<Real>& c) {
+  const Mask<Real> compressed = trial.measure > 2 * in.start.measure;
+  c.pressure.mean_stress = select(compressed, trial.mean_stress, in.start.mean_stress);
+  c.pressure.measure = select(compressed, trial.measure, in.start.measure);
+  c.pressure.stiffness = select(compressed, trial.stiffness, in.start.stiffness);
+  c.pressure.log_ratio = select(compressed, trial.log_ratio, in.start.log_ratio);
+  const Real denser = 2 * (in.e_start - in.e_end) / (in.e_start + in.e_end) +
+                      in.slopes_start.density_change * (c.pressure.log_ratio - in.start.log_ratio);
   c.slopes = denser_by(m, in.slopes_start, denser, in.sin3theta);
 }
 

@@ -31,15 +31,9 @@ using std::max;
 using std::min;
 using std::sqrt;
 
-/// Whether points are updated side by side, and how many: two registers of them, as the second computes while the
-/// first waits.
+/// Whether points are updated side by side, and how many.
 inline constexpr bool use_lanes = SIMSAND_VECTOR_BYTES > 0;
-#ifndef RR
-#define RR 1
-#endif
-inline constexpr int registers_of_lanes = RR;
-template <class T>
-inline constexpr int lane_count = registers_of_lanes*(use_lanes ? SIMSAND_VECTOR_BYTES : 16) / int(sizeof(T));
+template <class T> inline constexpr int lane_count = (use_lanes ? SIMSAND_VECTOR_BYTES : 16) / int(sizeof(T));
 
 /// Integers as wide as T.
 template <class T> using BitsOf = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;

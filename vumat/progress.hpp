@@ -10,6 +10,7 @@ namespace simsand {
 
 /// Points of one pass: no block that a host passes is longer than a few of them.
 inline constexpr int points_of_pass = 128;
+template <class Real> inline constexpr int vectors_of_pass = points_of_pass / lane_count<Real>;
 
 /// Shortest substep, as a share of the increment.
 inline constexpr double shortest_substep = 1. / ticks_per_increment;
@@ -78,7 +79,7 @@ void settle(Progress<Real, N>& at, const Substep<Lane, N>& end, const Mask<Lane>
 /// Lanes that go through the parts of a substep together.
 template <class Real, int N> struct Team {
   int count = 0;
-  Work<Real, N>* member[points_of_pass / lane_count<Real>];
+  Work<Real, N>* member[vectors_of_pass<Real>];
 
   template <class F> void each(const F& part) const {
     for (int i = 0; i < count; ++i) part(*member[i]);
@@ -131,7 +132,7 @@ template <class Real, int N> void newton(const Material<Real>& m, Team<Real, N> 
     team.each([&](W& w) { shift(m, w.*from, w.measure_step, w.end); });
     team.each([&](W& w) { evaluate(m, w.trial.in, w.end); });
   };
-  team.each([&](W& w) { first_candidate(m, w.trial.in, w.full); });
+  team.each([&](W& w) { first_candidate(m, w.trial.in, w.trial.pressure, w.full); });
   team.each([&](W& w) { evaluate(m, w.trial.in, w.full); });
   step(&W::full);
   step(&W::end);

@@ -37,7 +37,7 @@ template <class Real, int N> struct Flow {
   Real q, turn; ///< invariant of `direction`; 2 (1 - cos psi)
 };
 
-// The elastic trial in parts of one long function each: lanes run every part over many points before the next, so that
+// The elastic trial in parts, each with one long function: lanes run every part over many points before the next, so that
 // the processor finds work while a logarithm is under way.
 
 template <class Real, int N>

@@ -5,6 +5,7 @@
 #include "host/simulation.hpp"
 #include <algorithm>
 #include <cmath>
+#include <omp.h>
 
 namespace benchmark {
 namespace {
@@ -59,6 +60,7 @@ template <class Geometry> void run(const host::Scene& scene, int count, double d
 } // namespace
 
 States record_collapse(const std::string& scene_file, int count) {
+  omp_set_num_threads(1); // the recording has one order
   host::Scene scene = drivers::read_scene(scene_file);
   States states;
   states.properties = scene.material.properties;
