@@ -30,7 +30,7 @@ friction = 0.5
 [gate]
 motion = "remove"
 [end]
-time = 0.18
+time = 0.4
 [output]
 folder = "whole"
 sample_interval = 0.001
@@ -222,8 +222,8 @@ TEST(Restart, AfterAFullDiskItGoesOn) {
   const Program program("restart_full");
   program.write("scene.toml", scene());
   fs::remove_all(program.folder / "cut");
-  // No file may pass 200 blocks of 512 bytes: the snapshots fit, the checkpoints do not.
-  const auto stopped = program.run("run -q -t 1 scene.toml -o cut", "ulimit -f 200;");
+  // No file may pass 400 blocks of 512 bytes: the snapshots fit, the checkpoints do not.
+  const auto stopped = program.run("run -q -t 1 scene.toml -o cut", "ulimit -f 400;");
   EXPECT_EQ(stopped.status, 1);
   EXPECT_NE(stopped.err.find("cut/checkpoint.h5: cannot write the checkpoint (File too large; "),
             std::string::npos)
@@ -232,7 +232,7 @@ TEST(Restart, AfterAFullDiskItGoesOn) {
   EXPECT_NO_THROW(content_of(program.folder / "cut/result.h5"));
 
   interrupt(program, SIGINT);
-  const auto full = program.run("run -q -t 1 --resume cut", "ulimit -f 200;");
+  const auto full = program.run("run -q -t 1 --resume cut", "ulimit -f 400;");
   EXPECT_EQ(full.status, 1);
   EXPECT_NO_THROW(content_of(program.folder / "cut/result.h5"));
   EXPECT_EQ(program.run("run -q -t 1 --resume cut").status, 0);
@@ -337,7 +337,7 @@ TEST(Restart, WarnsOfAnotherMaterialLibrary) {
   elastic.replace(from, to - from,
                   "library = \"material.so\"\nname = \"elastic\"\nproperties = [1e5, 0.3]\n"
                   "state_variables = 1\ndensity = 1500.0\n[initial_stress]\nK0 = 0.5\n");
-  elastic.replace(elastic.find("time = 0.18"), 11,
+  elastic.replace(elastic.find("time = 0.4"), 10,
                   "time = 1e9\nkinetic_energy_fraction = 0"); // never at rest
   program.write("scene.toml", elastic);
   fs::remove_all(program.folder / "whole");
