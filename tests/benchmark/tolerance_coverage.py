@@ -126,7 +126,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="two scenes, coarse: tolerance 12%%, truth 20 a side")
     arguments = parser.parse_args()
     global PROGRAM
-    PROGRAM = arguments.program or PROGRAM
+    PROGRAM = (arguments.program or PROGRAM).resolve()
     names, enough = list(SCENES), 8
     if arguments.quick:
         names, enough, arguments.tolerance, arguments.finest = ["ss_dense_a0.5", "es_loose_smooth_floor"], 2, "12%", 20
