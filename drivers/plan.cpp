@@ -53,8 +53,9 @@ template <class Geometry> Plan plan(const host::Scene& scene, double burst) {
   plan.particles = s.particles.count;
   plan.end = expected_end(scene);
   plan.latest_end = scene.end_time;
-  plan.seconds_per_step = flowing * fastest_step(s, burst);
-  plan.step = mean_step * s.first_dt;
+  const bool flows = scene.gate.motion != host::GateMotion::fixed;
+  plan.seconds_per_step = (flows ? flowing : 1) * fastest_step(s, burst);
+  plan.step = (flows ? mean_step : 1) * s.first_dt;
   plan.steps = plan.end / plan.step;
   plan.checkpoint = double(host::checkpoint_image(header_of(scene), s, {}).size());
   plan.memory = memory_in_use(); // the largest moment of a run is that of a checkpoint
