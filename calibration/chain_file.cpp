@@ -228,11 +228,11 @@ SamplerState ChainFile::read(int dimensions) const {
 }
 
 void ChainFile::write(const SamplerState& state) const {
-  std::vector<char> image;
+  std::string image;
   H5::Exception::dontPrint();
   host::guarded_write(checkpoint.file, "the chain", [&] { image = chain_image(state, options, checkpoint); });
   try {
-    host::write_whole(checkpoint.file, {image.data(), image.size()});
+    host::write_whole(checkpoint.file, image);
   } catch (const std::system_error& error) {
     fail(checkpoint.file,
          fmt::format("cannot write the chain ({}); the state before is kept", error.code().message()));

@@ -98,11 +98,9 @@ void write_chain(const H5::Group& root, const Chain& chain) {
 
 } // namespace
 
-std::vector<char> chain_image(const SamplerState& state, const SamplerOptions& options,
-                              const Checkpoint& checkpoint) {
-  H5::FileAccPropList in_memory;
-  in_memory.setCore(1 << 20, false);
-  H5::H5File file("chain", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
+std::string chain_image(const SamplerState& state, const SamplerOptions& options,
+                        const Checkpoint& checkpoint) {
+  const H5::H5File file = host::memory_file();
   host::attribute(file, "format", std::string(chain_format_name));
   host::attribute(file, "format_version", chain_format_version);
   host::attribute(file, "version", std::string(drivers::version));
@@ -110,12 +108,7 @@ std::vector<char> chain_image(const SamplerState& state, const SamplerOptions& o
   write_options(file, options, checkpoint);
   write_chain(file, state.chain);
   write_state(file.createGroup("state"), state);
-  file.flush(H5F_SCOPE_GLOBAL);
-  const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
-  std::vector<char> image(size > 0 ? std::size_t(size) : 0);
-  if (size <= 0 || H5Fget_file_image(file.getId(), image.data(), image.size()) < 0)
-    throw H5::FileIException("chain_image", "no image of the file");
-  return image;
+  return host::file_image(file);
 }
 
 } // namespace calibration

@@ -2,7 +2,7 @@
 // The bytes of a chain file, an HDF5 file whose datasets all carry a checksum. Layout: calibration/SAMPLER.md.
 #pragma once
 #include "calibration/sampler_state.hpp"
-#include <vector>
+#include <string>
 
 namespace calibration {
 
@@ -10,7 +10,7 @@ inline constexpr const char* chain_format_name = "simsand chain";
 inline constexpr int chain_format_version = 1;
 
 /// The file as it shall stand on disk, built in memory. Throws H5::Exception.
-std::vector<char> chain_image(const SamplerState& state, const SamplerOptions& options,
-                              const Checkpoint& checkpoint);
+std::string chain_image(const SamplerState& state, const SamplerOptions& options,
+                        const Checkpoint& checkpoint);
 
 } // namespace calibration

@@ -50,7 +50,8 @@ TEST(Tension, NoiseDiesUnderCompressionAndGrowsUnderTension) {
     std::printf("stress / E = %+.3f: kinetic energy of the noise times %.3g\n", stress / 1e6, grown.back());
   }
   for (const int k : {0, 1, 2}) EXPECT_LT(grown[k], 0.1);
-  EXPECT_GT(grown[3], 1e3) << "a boundary of the method: if it holds now, host/STABILITY.md is to be changed";
+  EXPECT_GT(grown[3], 1e3)
+      << "a boundary of the method: if it holds now, drivers/charts/STABILITY.md is to be changed";
 }
 
 /// The time at which two next neighbours are half as far apart again, s; `until` if they never are.
