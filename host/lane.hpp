@@ -67,6 +67,13 @@ inline double largest(double a) {
   return a;
 }
 
+/// True if a comparison holds for any of the eight.
+inline bool any(const decltype(Lane{} < Lane{}) & mask) {
+  auto joined = mask[0];
+  for (int l = 1; l < lanes; ++l) joined |= mask[l];
+  return joined != 0;
+}
+
 /// f(x) of each.
 template <class F> inline Lane each(const Lane& a, F&& f) {
   Lane r{};

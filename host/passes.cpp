@@ -56,7 +56,7 @@ ClusterMotion move(Particles<Geometry>& p, const Kernel<Geometry::dimension>& ke
   constexpr int together = StressBlocks::points / lanes; // as in `deform`: what a thread has at hand
   const int blocks = (p.clusters() + together - 1) / together;
   motions.assign(blocks, {});
-#pragma omp parallel for schedule(static, 1)
+#pragma omp parallel for schedule(static)
   for (int b = 0; b < blocks; ++b)
     for (int c = b * together; c < std::min((b + 1) * together, p.clusters()); ++c) {
       const auto forces = forces_on(p, kernel, lists, records, scene, c);

@@ -60,15 +60,23 @@ template <class Geometry> Lane speeds(const Particles<Geometry>& p, int c) {
   return load(&p.wave_speed[c * lanes]) + square_root(square);
 }
 
-/// The particle with the largest of them.
-template <class Geometry> std::pair<double, int> fastest_of(const Particles<Geometry>& p) {
+/// The largest of them; what is no number is left out.
+template <class Geometry> double fastest_of(const Particles<Geometry>& p) {
   Lane most{};
-  for (int c = 0; c < p.clusters(); ++c) most = larger(speeds(p, c), most); // what is no number is left out
-  const double fastest = largest(most);
-  for (int c = 0; c < p.clusters(); ++c)
-    for (int l = 0; l < lanes; ++l)
-      if (speeds(p, c)[l] == fastest) return {fastest, c * lanes + l};
-  return {fastest, 0};
+  for (int c = 0; c < p.clusters(); ++c) most = larger(speeds(p, c), most);
+  return largest(most);
+}
+
+[[noreturn]] void step_too_short(const auto& s, double fastest) {
+  const auto& p = s.particles;
+  int at = 0;
+  while (at < p.count - 1 && speeds(p, at / lanes)[at % lanes] != fastest) ++at;
+  std::vector<double> place;
+  for (const auto& x : p.position) place.push_back(x[at]);
+  throw std::runtime_error(
+      fmt::format("the motion became unstable at time {:.9g} s: the step fell to {:.3g} s (first: {:.3g} s), "
+                  "particle {} at ({:.6g}) m has wave and flow speeds of {:.3g} m/s together",
+                  s.time, s.dt, s.first_dt, p.id[at], fmt::join(place, ", "), fastest));
 }
 
 /// Step from the current wave speed. It shrinks at once and grows slowly: a deposit that opens up for a
@@ -76,18 +84,13 @@ template <class Geometry> std::pair<double, int> fastest_of(const Particles<Geom
 template <class Geometry> void choose_step(Simulation<Geometry>& s) {
   constexpr double growth = 1.02, smallest = 1e-3; // of the step before; of the first step
   update_wave_speed(s.particles, s.scene.material, s.blocks, s.steps);
-  auto [fastest, at] = fastest_of(s.particles);
-  fastest *= 1 + 0.5 * s.scene.numerics.wave_speed_tolerance; // a modulus grows at most with the stress
-  const double wanted = s.scene.numerics.step_factor * s.kernel.h / fastest;
+  const double fastest = fastest_of(s.particles);
+  const double growing =
+      1 + 0.5 * s.scene.numerics.wave_speed_tolerance; // a modulus grows at most with the stress
+  const double wanted = s.scene.numerics.step_factor * s.kernel.h / (growing * fastest);
   s.dt = s.steps == 0 ? wanted : std::min(wanted, growth * s.dt);
   if (s.steps == 0) s.first_dt = s.dt;
-  std::array<double, Geometry::dimension> place;
-  for (std::size_t a = 0; a < place.size(); ++a) place[a] = s.particles.position[a][at];
-  if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt))
-    throw std::runtime_error(fmt::format(
-        "the motion became unstable at time {:.9g} s: the step fell to {:.3g} s (first: {:.3g} s), "
-        "particle {} at ({:.6g}) m has wave and flow speeds of {:.3g} m/s together",
-        s.time, s.dt, s.first_dt, s.particles.id[at], fmt::join(place, ", "), fastest));
+  if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt)) step_too_short(s, fastest);
 }
 
 /// Adds to the loads of floor and gate, or to those of all walls.

@@ -31,6 +31,7 @@ template <class Geometry> void find_due(const Particles<Geometry>& p, long step,
     const auto changed =
         (square > (1.0 + change) * (1.0 + change) * last) | (square < (1.0 - change) * (1.0 - change) * last);
     const bool all = (c + step) % period == 0;
+    if (!all && !any(changed)) continue;
     for (int l = 0; l < lanes; ++l)
       if ((all || changed[l]) && c * lanes + l < p.count) blocks.due.push_back(c * lanes + l);
   }
