@@ -11,6 +11,7 @@
 #include "host/geometry.hpp"
 #include "host/material_calls.hpp"
 #include "host/simulation.hpp"
+#include "tests/benchmark/peaks.hpp"
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -23,8 +24,6 @@
 namespace {
 
 using namespace host;
-
-constexpr double peak_flops = 58e9, peak_bytes = 24e9; // of one core: multiply-adds in double, memory
 
 double processor_seconds() {
   timespec t;
@@ -110,13 +109,13 @@ template <class Geometry> std::vector<Row<Geometry>> rows(const Simulation<Geome
   };
 }
 
-void print_row(const char* name, double seconds, double flops, double bytes) {
+void print_row(const char* name, double seconds, double flops, double bytes, const tests::Peaks& peaks) {
   fmt::print("{:<16}{:>12.1f}", name, 1e9 * seconds);
   if (flops > 0)
-    fmt::print("{:>14.0f}{:>10.0f}", flops, 100 * flops / seconds / peak_flops);
+    fmt::print("{:>14.0f}{:>10.0f}", flops, 100 * flops / seconds / peaks.flops);
   else
     fmt::print("{:>14}{:>10}", "-", "-");
-  fmt::print("{:>14.0f}{:>10.0f}\n", bytes, 100 * bytes / seconds / peak_bytes);
+  fmt::print("{:>14.0f}{:>10.0f}\n", bytes, 100 * bytes / seconds / peaks.bytes);
 }
 
 /// Processor time of `steps` whole steps, s for each.
@@ -157,6 +156,9 @@ template <class Geometry> double material_share(Simulation<Geometry>& s, int rep
 template <class Geometry> void measure(Simulation<Geometry>& s, int repeats) {
   const double count = s.particles.count;
   const auto pairs = count_pairs(s);
+  const auto peaks = tests::measured_peaks();
+  fmt::print("peaks of a core, measured: {:.0f} GFlop/s, {:.0f} GB/s\n", 1e-9 * peaks.flops,
+             1e-9 * peaks.bytes);
   fmt::print("{} particles, {} images; {:.1f} neighbours within the support, {:.1f} computed, {} rebuilds in "
              "{} steps\n{:<16}{:>12}{:>14}{:>10}{:>14}{:>10}\n",
              count, s.images.list.size(), pairs.close, pairs.listed, s.rebuilds, s.steps, "part",
@@ -171,7 +173,7 @@ template <class Geometry> void measure(Simulation<Geometry>& s, int repeats) {
     if (row.name == std::string("wave speed")) wave = seconds;
     if (row.name == std::string("stress")) stress = seconds;
     all += seconds;
-    print_row(row.name, seconds, row.flops, row.bytes);
+    print_row(row.name, seconds, row.flops, row.bytes, peaks);
   }
   const double rebuild =
       median_time<Geometry>(state, std::max(3, repeats / 4), [](auto& run) { update_lists(run); });
