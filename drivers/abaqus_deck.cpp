@@ -41,13 +41,16 @@ std::string label(const std::string& text, const std::string& prefix) {
   return out.empty() || !std::isalpha(static_cast<unsigned char>(out[0])) ? prefix + out : out;
 }
 
+/// As a label, and with hyphens.
 std::string material_name(const host::Scene& scene) {
   std::string name = scene.material.name;
   for (auto& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
-  if (name.empty() || name.size() > 80 || label(name, "X") != name)
-    throw std::runtime_error(fmt::format(
-        "material name '{}': ABAQUS takes a letter followed by up to 79 letters, digits or underscores",
-        scene.material.name));
+  auto plain = name;
+  std::replace(plain.begin(), plain.end(), '-', '_');
+  if (name.empty() || name.size() > 80 || label(plain, "X") != plain)
+    throw std::runtime_error(fmt::format("material name '{}': ABAQUS takes a letter followed by up to 79 "
+                                         "letters, digits, hyphens or underscores",
+                                         scene.material.name));
   return name;
 }
 

@@ -16,14 +16,14 @@ public:
   /// True after the scene's interval, and not so often that writing takes more than a twentieth of the time.
   bool due() const { return seconds_since(last) > std::max(interval, 20 * cost); }
 
-  /// Replaces the checkpoint by the present state; `wall_seconds` is what the run has taken so far.
-  void write(host::Simulation<Geometry>& s, Recorder<Geometry>& recorder, double wall_seconds) {
+  /// Replaces the checkpoint by the present state; `spent` is what the run has taken so far.
+  void write(host::Simulation<Geometry>& s, Recorder<Geometry>& recorder, const host::Spent& spent) {
     const auto start = Clock::now();
     header.time = s.time;
     header.steps = double(s.steps);
     header.particles = s.particles.count;
     auto progress = recorder.progress();
-    progress.wall_seconds = wall_seconds;
+    progress.spent = spent;
     host::write_checkpoint(checkpoint_path(folder), previous_checkpoint_path(folder), header, s, progress);
     last = Clock::now();
     cost = seconds_since(start);

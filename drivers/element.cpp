@@ -59,11 +59,12 @@ ElementCase read_element_case(const TomlTable& document) {
   return out;
 }
 
-ElementRow run_element_case(const ElementCase& element, const RowSink& sink, const EnvelopeSink& envelopes) {
+ElementRow run_element_case(const ElementCase& element, const RowSink& sink, const EnvelopeSink& envelopes,
+                            const std::string& failed_point) {
   MaterialCaller material(element.material.material, element.material.failure_state);
   const auto columns = quantities(element.material, element.critical);
   const StageSetting setting{material,       columns, element.critical, element.material.void_ratio,
-                             element.newton, sink};
+                             element.newton, sink,    failed_point};
   ElementRow row;
   row.point = element.initial;
   row.pore_pressure = element.pore_pressure;
@@ -75,7 +76,7 @@ ElementRow run_element_case(const ElementCase& element, const RowSink& sink, con
     }
     ++row.stage;
     try {
-      probe(material, row.point, *stage.envelope, stage.duration, row.stage, envelopes);
+      probe(material, row.point, *stage.envelope, stage.duration, row.stage, envelopes, failed_point);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(
           fmt::format("{}: stage {} '{}', {}", stage.where, row.stage, stage.name, error.what()));

@@ -29,9 +29,10 @@ ElementCase read_element_case(const TomlTable& document);
 
 /// Runs all stages and returns the last row; `sink` takes those that are to be written, `envelopes` the probes of
 /// envelope stages. Throws std::runtime_error naming stage, step, residual and its unit if a step cannot be
-/// completed, after the row of the last one that could.
+/// completed, after the row of the last one that could. If the material failed, it names what is known of that
+/// instead, and the call goes to the file `failed_point`, unless that is empty.
 ElementRow run_element_case(
     const ElementCase& element, const RowSink& sink,
-    const EnvelopeSink& envelopes = [](const EnvelopeRow&) {});
+    const EnvelopeSink& envelopes = [](const EnvelopeRow&) {}, const std::string& failed_point = {});
 
 } // namespace drivers

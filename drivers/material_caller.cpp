@@ -66,6 +66,12 @@ PointState taken(const PointState& from, const Vector6& increment, double dt, in
 
 } // namespace
 
+bool is_finite(const PointState& point) {
+  double all = point.stress.sum() * 0 + point.internal_energy * 0 + point.inelastic_energy * 0;
+  for (const double x : point.state) all += x * 0;
+  return all == 0;
+}
+
 double mean_stress(const Vector6& stress) {
   return stress.head<3>().mean();
 }
@@ -107,6 +113,21 @@ void MaterialCaller::pack(const PointState& from, const Vector6& increment, int 
     put_motion(host::strained(from.gradient, -tensor(increment)), k, b);
 }
 
+void MaterialCaller::call(const host::Increment& increment, std::size_t first, host::VumatBlock& b) {
+  host::call_vumat(material, increment, b);
+  points_called += b.points;
+  const int k = host::first_failure(b, failure_state);
+  if (k < 0) return;
+  failed_point = first + std::size_t(k);
+  last_failure =
+      host::BadAnswer{host::fault_of(b, k, failure_state), host::point_call(material, increment, b, k)};
+}
+
+std::string MaterialCaller::evidence(const std::filesystem::path& file) const {
+  if (!last_failure) return "the material failed";
+  return host::evidence_of(material, failure_state, *last_failure, "", 0, file);
+}
+
 std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from,
                                                 std::span<const Vector6> increments, double dt) {
   std::vector<PointState> answers;
@@ -117,13 +138,12 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
     auto& b = block(n);
     for (int k = 0; k < n; ++k) pack(start(first + k), increments[first + k], k, b);
     const double end = start(first).time + dt;
-    host::call_vumat(material, {end, end, dt}, b);
+    call({end, end, dt}, first, b);
     for (int k = 0; k < n; ++k) {
       answers.push_back(taken(start(first + k), increments[first + k], dt, k, b));
       if (material.frame == host::Frame::green_naghdi)
         answers.back().gradient = host::general_at(b.gradient_new, k, n, shear);
     }
-    points_called += n;
   }
   return answers;
 }
@@ -134,8 +154,7 @@ PointState MaterialCaller::follow(const PointState& from, const host::Kinematics
   put(from, increment, 0, b);
   put_motion(motion, 0, b);
   const double end = from.time + dt;
-  host::call_vumat(material, {end, end, dt}, b);
-  ++points_called;
+  call({end, end, dt}, 0, b);
   auto to = taken(from, increment, dt, 0, b);
   to.gradient = motion.gradient_new;
   return to;
@@ -145,8 +164,7 @@ Matrix6 MaterialCaller::elastic_stiffness(const PointState& from) {
   constexpr double probe = 1e-8; // small against the strain over which moduli change
   auto& b = block(6);
   for (int k = 0; k < 6; ++k) pack(from, probe * Vector6::Unit(k), k, b);
-  host::call_vumat(material, {0, 0, 1}, b);
-  points_called += 6;
+  call({0, 0, 1}, 0, b);
   Matrix6 stiffness;
   for (int k = 0; k < 6; ++k)
     stiffness.col(k) = (taken(from, Vector6::Zero(), 0, k, b).stress - from.stress) / probe;

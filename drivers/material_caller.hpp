@@ -9,9 +9,10 @@
 // strain has no other axes: R stays, F moves by U alone (host/kinematics.hpp, strained). F and U are
 // followed for materials of Frame::green_naghdi, others are shown unity.
 #pragma once
-#include "host/vumat_block.hpp"
+#include "host/reproducer.hpp"
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct PointState {
   host::Tensor gradient = host::Tensor::Identity(); ///< F, base axes
 };
 
+/// Whether stress, state and energies are numbers.
+bool is_finite(const PointState& point);
 double mean_stress(const Vector6& stress);       ///< p, Pa
 double deviatoric_stress(const Vector6& stress); ///< q = sqrt(3/2 s:s), Pa
 double volumetric_strain(const Vector6& strain);
@@ -61,14 +64,24 @@ public:
     return failure_state >= 0 && answer.state[failure_state] < 0;
   }
 
+  /// Whether an answer may be gone on from.
+  bool usable(const PointState& answer) const { return is_finite(answer) && !refused(answer); }
+  /// What is known of the last answer that was not usable, in one line. Writes its reproducer to `file`, unless that
+  /// is empty.
+  std::string evidence(const std::filesystem::path& file) const;
+
   const host::Material material;
   const int failure_state;
   long points_called = 0;
+  std::size_t failed_point = 0; ///< which of those given to `respond` the last unusable answer belongs to
 
 private:
+  /// Calls the material with a block whose first point is number `first` of those given.
+  void call(const host::Increment& increment, std::size_t first, host::VumatBlock& block);
   host::VumatBlock& block(int points);
   void pack(const PointState& from, const Vector6& increment, int k, host::VumatBlock& block) const;
   std::map<int, host::VumatBlock> blocks;
+  std::optional<host::BadAnswer> last_failure;
 };
 
 } // namespace drivers

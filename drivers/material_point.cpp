@@ -51,7 +51,7 @@ struct Increment {
 
   Trial judged(const Vector6& increment, PointState answer) const {
     Trial t{increment, std::move(answer), {}, {}, std::numeric_limits<double>::infinity()};
-    const bool finite = t.answer.stress.allFinite();
+    const bool finite = is_finite(t.answer);
     t.residual = control.stress * t.answer.stress + control.strain * t.answer.strain - control.at_start -
                  fraction * control.change;
     t.scaled = t.residual.cwiseQuotient(allowed(finite ? t.answer : start));
@@ -121,7 +121,7 @@ struct Increment {
   }
 
   void note(const Trial& t) const {
-    report.finite = t.answer.stress.allFinite();
+    report.finite = is_finite(t.answer);
     report.refused = material.refused(t.answer);
     t.scaled.cwiseAbs().maxCoeff(&report.restriction);
     report.residual = t.residual[report.restriction];

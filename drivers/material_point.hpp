@@ -24,7 +24,7 @@ struct NewtonOptions {
 struct StepReport {
   int iterations = 0, cuts = 0;
   bool converged = true;
-  bool finite = true;   ///< the material returned numbers
+  bool finite = true;   ///< the material returned numbers: stress, state and energies
   bool refused = false; ///< the material reported failure
   int restriction = 0;  ///< of a failure: the one least satisfied at the end asked for, from 0
   double residual = 0;  ///< what the last state reached is off by there, in its own unit

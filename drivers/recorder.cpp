@@ -2,11 +2,13 @@
 #include "drivers/recorder.hpp"
 #include "drivers/version.hpp"
 #include "host/geometry.hpp"
+#include "host/guard.hpp"
+#include "host/hdf5_write.hpp"
+#include "host/whole_file.hpp"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace drivers {
 namespace {
@@ -132,12 +134,7 @@ double total_of(const host::Array& per_mass, const host::Array& mass, int count)
 template <class Geometry>
 Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s)
     : abscissa(outline_places(s.scene)), result(result_path(s.scene), header_of(s), series_columns(s)) {
-  const auto& p = s.particles;
-  const std::vector<host::Field> fields{{"mass", "kg", {view(p.mass, p.count)}},
-                                        {"initial_position", "m", views(p.position, p.count)}};
-  result.particles(fields, std::span(p.id).first(p.count));
-  result.outline_radii(abscissa);
-  std::ofstream(std::filesystem::path(s.scene.output_folder) / "scene.toml") << s.scene.resolved;
+  write_constants(s);
 }
 
 template <class Geometry>
@@ -150,12 +147,23 @@ Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s, const host::Ru
   for (std::size_t row = 0; row < progress.result.series.front().size(); ++row)
     series.push_back(from_row(progress.result.series, row, Geometry::dimension));
   if (progress.rest_time >= 0) rest_time = progress.rest_time;
+  write_constants(s);
+}
+
+/// What never changes of a result, and the scene beside it.
+template <class Geometry> void Recorder<Geometry>::write_constants(const host::Simulation<Geometry>& s) {
+  const auto& p = s.particles;
+  const std::vector<host::Field> fields{{"mass", "kg", {view(p.mass, p.count)}},
+                                        {"initial_position", "m", views(p.position, p.count)}};
+  result.particles(fields, std::span(p.id).first(p.count));
   result.outline_radii(abscissa);
+  const auto scene = std::filesystem::path(s.scene.output_folder) / "scene.toml";
+  host::guarded_write(scene, "the scene", [&] { host::write_whole(scene, s.scene.resolved); });
 }
 
 template <class Geometry> host::RunProgress Recorder<Geometry>::progress() {
   result.flush();
-  return {result.progress(), next_sample, next_snapshot, last_snapshot, rest_time.value_or(-1), 0};
+  return {result.progress(), next_sample, next_snapshot, last_snapshot, rest_time.value_or(-1), {}};
 }
 
 template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation<Geometry>& s) {
@@ -172,8 +180,8 @@ template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation
   now.work = s.work;
   now.internal = total_of(p.internal_energy, p.mass, p.count);
   now.inelastic = total_of(p.inelastic_energy, p.mass, p.count);
-  now.imbalance = (now.kinetic + now.potential - s.initial_potential_energy - s.work.total()) /
-                  s.initial_potential_energy;
+  const double scale = host::energy_scale(s);
+  now.imbalance = (now.kinetic + now.potential - s.initial_potential_energy - s.work.total()) / scale;
   now.step_size = s.dt;
   now.walls = wall_samples(s.loads, s.time, series.empty() ? nullptr : &series.back());
   const auto row = as_row(now, Geometry::dimension);
@@ -182,7 +190,7 @@ template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation
   bool cleared = s.scene.gate.lower_edge(s.time) > s.scene.column.height;
   for (const auto& wall : s.scene.walls) cleared &= s.time >= wall.motion.end();
   const bool still = !series.empty() && std::abs(now.height - series.back().height) < 5e-3 * s.scene.spacing;
-  const bool slow = now.kinetic < s.scene.rest_fraction * s.initial_potential_energy;
+  const bool slow = now.kinetic < s.scene.rest_fraction * scale;
   if (!rest_time && cleared && still && slow) rest_time = s.time;
   series.push_back(now);
 }

@@ -21,7 +21,7 @@ struct Sample {
   double kinetic = 0, potential = 0;
   host::Work work;
   double internal = 0, inelastic = 0;
-  double imbalance = 0; ///< (kinetic + potential - initial potential - work) / initial potential
+  double imbalance = 0; ///< (kinetic + potential - initial potential - work) / energy_scale
   double step_size = 0;
   std::vector<WallSample> walls; ///< one for each of the simulation's walls
 };
@@ -29,7 +29,7 @@ struct Sample {
 template <class Geometry> class Recorder {
 public:
   explicit Recorder(const host::Simulation<Geometry>& simulation);
-  /// Continues the result of an interrupted run.
+  /// Continues the result of an interrupted run. `simulation` is still at its start.
   Recorder(const host::Simulation<Geometry>& simulation, const host::RunProgress& progress);
 
   /// Samples and writes what is due at the current time.
@@ -39,7 +39,7 @@ public:
   /// True once the energy is below the scene's fraction, the height stands still between two samples
   /// and the gate has cleared the column.
   bool at_rest() const { return rest_time.has_value(); }
-  /// What a checkpoint must hold of it (all but the wall clock); the result on disk is then as far.
+  /// What a checkpoint must hold of it (all but the time spent); the result on disk is then as far.
   host::RunProgress progress();
   /// Writes the summary and closes the file as complete.
   void finish(const host::Simulation<Geometry>& simulation,
@@ -50,9 +50,12 @@ public:
   const std::vector<double>& radii() const { return abscissa; }
   std::optional<double> time_to_rest() const { return rest_time; }
   std::string file() const { return result.path().string(); }
+  /// Files of snapshots that the continued result has lost.
+  const std::vector<std::filesystem::path>& left_out() const { return result.left_out(); }
 
 private:
   void sample(const host::Simulation<Geometry>& simulation);
+  void write_constants(const host::Simulation<Geometry>& simulation);
 
   std::vector<double> abscissa, heights;
   std::vector<Sample> series;

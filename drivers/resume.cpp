@@ -47,6 +47,17 @@ Found latest_readable(const fs::path& folder) {
   }
 }
 
+/// The scene as text, if the file holds one: a run can go on without, from the one in its checkpoint.
+std::optional<std::string> stored_text(const fs::path& path) {
+  if (!fs::exists(path)) return {};
+  try {
+    return read_scene(path.string()).resolved;
+  } catch (const std::runtime_error& error) {
+    spdlog::warn("{}; going on with the scene in the checkpoint", error.what());
+    return {};
+  }
+}
+
 /// Refuses a checkpoint that another program wrote, and another scene than the stored one.
 void check(const Found& found, const std::optional<std::string>& scene, const std::string& scene_name) {
   const auto& header = found.header;
@@ -100,7 +111,7 @@ std::optional<Resumption> find_resumption(const std::string& what, const std::st
   } else {
     folder = folder_of(what);
     scene_name = (folder / "scene.toml").string();
-    if (fs::exists(scene_name)) expected = read_scene(scene_name).resolved;
+    expected = stored_text(scene_name);
   }
   if (host::is_complete_result(folder / "result.h5")) {
     remove_checkpoints(folder);
@@ -120,6 +131,12 @@ host::CheckpointHeader header_of(const host::Scene& scene) {
   const auto& library = scene.material.library.path;
   const std::string geometry = host::with_geometry(scene.geometry, [](auto g) { return g.name; });
   return {scene.resolved, version, compiler, geometry, library, hash_of(library)};
+}
+
+void remove_newer_checkpoint(const fs::path& read) {
+  const auto newest = checkpoint_path(folder_of(read));
+  std::error_code ignored;
+  if (read.filename() != newest.filename()) fs::remove(newest, ignored);
 }
 
 bool remove_checkpoints(const fs::path& folder) {

@@ -21,11 +21,15 @@ struct Resumption {
 /// changed); `folder`, unless empty, is where a scene file's results are instead of its output.folder. Empty
 /// if the run is complete. Throws std::runtime_error, one line, if there is no checkpoint or none that can be
 /// read, if it is of another scene or of another version. Warns of a checkpoint that cannot be read while the
-/// one before can, of a changed material library and of another compiler.
+/// one before can, of a scene beside the results that cannot be read, of a changed material library and of another compiler.
 std::optional<Resumption> find_resumption(const std::string& what, const std::string& folder);
 
 /// Header of a checkpoint of `scene`, without time, steps and particles.
 host::CheckpointHeader header_of(const host::Scene& scene);
+
+/// After a run has been read from the checkpoint `read`: if that was the one before the newest, the newest is
+/// damaged. It is removed, so that it never takes the place of the good one.
+void remove_newer_checkpoint(const std::filesystem::path& read);
 
 /// Removes the checkpoints in a folder; true if there were any.
 bool remove_checkpoints(const std::filesystem::path& folder);

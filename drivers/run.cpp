@@ -8,6 +8,7 @@
 #include "host/geometry.hpp"
 #include "host/guard.hpp"
 #include "host/vumat_utilities.hpp"
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -31,8 +32,8 @@ double seconds_since(Clock::time_point start) {
 class Progress {
 public:
   template <class Geometry>
-  Progress(bool quiet, const host::Simulation<Geometry>& s, double seconds_before)
-      : quiet(quiet), before(seconds_before), first_time(s.time), first_step(s.steps) {}
+  Progress(bool quiet, const host::Simulation<Geometry>& s, const host::Spent& before)
+      : quiet(quiet), before(before), first_time(s.time), first_step(s.steps) {}
 
   template <class Geometry> void report(const host::Simulation<Geometry>& s) {
     if (quiet || s.steps % 64 != 0 || seconds_since(last) < 2) return;
@@ -44,21 +45,26 @@ public:
                  double(s.steps - first_step) * s.particles.count / seconds, late ? "at most" : "about",
                  ((late ? s.scene.end_time : expected) - s.time) / (s.time - first_time) * seconds);
   }
-  /// s of wall clock, all parts of the run.
-  double elapsed() const { return before + seconds_since(start); }
+  /// By all parts of the run.
+  host::Spent spent() const {
+    return {before.wall + seconds_since(start),
+            before.processor + double(std::clock() - processor_start) / CLOCKS_PER_SEC};
+  }
 
 private:
   bool quiet;
-  double before, first_time;
+  host::Spent before;
+  double first_time;
   long first_step;
+  std::clock_t processor_start = std::clock(); ///< of this process, all threads
   Clock::time_point start = Clock::now(), last = start;
 };
 
 template <class Geometry>
 Summary summarise(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder,
-                  double wall_seconds) {
+                  const host::Spent& spent) {
   const auto& p = s.particles;
-  const double r0 = s.scene.column.radius, e0 = s.initial_potential_energy;
+  const double r0 = s.scene.column.radius, e0 = host::energy_scale(s);
   const auto profiles = host::surface_profiles(p, s.kernel, recorder.radii(), s.scene.sector);
   const auto heights = host::mean_profile(profiles);
   const auto front = host::front_of(profiles, recorder.radii(), s.scene.grain_diameter);
@@ -86,9 +92,9 @@ Summary summarise(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
       {{"particles", "1"}, double(p.count)},
       {{"steps", "1"}, double(s.steps)},
       {{"list_rebuilds", "1"}, double(s.rebuilds)},
-      {{"wall_clock", "s"}, wall_seconds},
-      {{"time_processor", "s"}, double(std::clock()) / CLOCKS_PER_SEC}, // of this process, all threads
-      {{"rate", "particle-steps/s"}, double(s.steps) * p.count / wall_seconds},
+      {{"wall_clock", "s"}, spent.wall},
+      {{"time_processor", "s"}, spent.processor},
+      {{"rate", "particle-steps/s"}, double(s.steps) * p.count / spent.wall},
       {{"threads", "1"}, double(omp_get_max_threads())},
       {{"memory_per_particle", "B"}, double(host::memory_of(s).data) / p.count},
   };
@@ -137,11 +143,27 @@ void print_table(const host::Scene& scene, const Summary& summary, const std::st
 template <class Geometry>
 void check_latest(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
   const Sample& last = recorder.samples().back();
-  if (last.time != s.time || s.initial_potential_energy <= 0) return;
-  const double e0 = s.initial_potential_energy;
-  const double made =
-      last.kinetic + last.potential - e0 - std::max(last.work.wall, 0.0) - std::max(last.work.friction, 0.0);
-  host::check_energy(s.particles, s.time, made / e0, last.imbalance);
+  if (last.time != s.time) return;
+  const double scale = host::energy_scale(s);
+  if (scale <= 0) return;
+  const double given = host::given_by_walls(s.scene, last.work);
+  const double made = last.kinetic + last.potential - s.initial_potential_energy - given;
+  host::check_energy(s.particles, s.time, made / scale, last.imbalance);
+  host::check_work(s);
+}
+
+/// Warns of energy that pairs made and viscosity took: too little to end the run, too much to pass unseen.
+template <class Geometry>
+void warn_of_pairs(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
+  const auto by_stress = [](const Sample& sample) { return sample.work.stress; };
+  const Sample& worst = std::ranges::max(recorder.samples(), {}, by_stress);
+  const double share = worst.work.stress / host::energy_scale(s);
+  if (!host::walls_rest(s.scene) || share <= host::suspect_pair_gift) return;
+  spdlog::warn(
+      "{}: until {:.4g} s the stress of pairs had given the sand {:.3g} of the initial potential energy "
+      "(beyond {} it is suspect), which the artificial viscosity took; compare with a run at another "
+      "scene.spacing or numerics.step_factor",
+      s.scene.output_folder, worst.time, share, host::suspect_pair_gift);
 }
 
 /// The loop of steps, until rest, the latest end or a request to stop.
@@ -151,7 +173,7 @@ void advance(host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorde
   recorder.observe(simulation);
   while (simulation.time < simulation.scene.end_time && !recorder.at_rest()) {
     if (const int signal = stop_requested()) {
-      checkpointer.write(simulation, recorder, progress.elapsed());
+      checkpointer.write(simulation, recorder, progress.spent());
       throw Interrupted(fmt::format("stopped by {} at {:.6g} s; to go on: simsand run --resume {}",
                                     strsignal(signal), simulation.time, simulation.scene.output_folder),
                         signal);
@@ -159,7 +181,7 @@ void advance(host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorde
     host::step(simulation);
     recorder.observe(simulation);
     check_latest(simulation, recorder);
-    if (checkpointer.due()) checkpointer.write(simulation, recorder, progress.elapsed());
+    if (checkpointer.due()) checkpointer.write(simulation, recorder, progress.spent());
     progress.report(simulation);
   }
 }
@@ -175,9 +197,10 @@ void keep_last_state(const host::Simulation<Geometry>& simulation, Recorder<Geom
 template <class Geometry>
 Summary finish(host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorder, Progress& progress) {
   recorder.write_snapshot(simulation);
-  const Summary summary = summarise(simulation, recorder, progress.elapsed());
+  const Summary summary = summarise(simulation, recorder, progress.spent());
   recorder.finish(simulation, summary);
   remove_checkpoints(simulation.scene.output_folder);
+  warn_of_pairs(simulation, recorder);
   print_table(simulation.scene, summary, recorder.file());
   return summary;
 }
@@ -205,12 +228,16 @@ template <class Geometry> Summary run(const host::Scene& scene, const RunOptions
     Recorder<Geometry> recorder(simulation);
     if (remove_checkpoints(scene.output_folder) && !options.quiet)
       spdlog::warn("{} held an unfinished run: it is replaced", scene.output_folder);
-    return run_on(simulation, recorder, Progress(options.quiet, simulation, 0), options.quiet);
+    return run_on(simulation, recorder, Progress(options.quiet, simulation, {}), options.quiet);
   }
-  const auto done = host::read_checkpoint(options.checkpoint, simulation);
-  Recorder<Geometry> recorder(simulation, done);
+  const auto done = host::read_run_progress(options.checkpoint);
+  Recorder<Geometry> recorder(simulation, done); // while the particles are where they began
+  for (const auto& part : recorder.left_out())
+    spdlog::warn("{}: missing or not readable; the result goes on without this snapshot", part.string());
+  host::read_checkpoint(options.checkpoint, simulation);
+  remove_newer_checkpoint(options.checkpoint);
   if (!options.quiet) spdlog::info("going on from {:.6g} s", simulation.time);
-  return run_on(simulation, recorder, Progress(options.quiet, simulation, done.wall_seconds), options.quiet);
+  return run_on(simulation, recorder, Progress(options.quiet, simulation, done.spent), options.quiet);
 }
 
 } // namespace

@@ -40,12 +40,7 @@ void read_material(const TomlTable& root, host::Scene& scene) {
   scene.initial_state = loaded.initial_state;
   scene.failure_state = loaded.failure_state;
   scene.bulk_density = loaded.bulk_density;
-}
-
-/// Friction angle of the critical state, degrees, where the material is SIMSAND; else 0.
-double friction_angle(const TomlTable& root, const host::Scene& scene) {
-  if (root.table("material").has("properties")) return 0;
-  return scene.material.properties[simsand::parameter_index("phi")];
+  if (loaded.is_simsand) scene.friction_angle = scene.material.properties[simsand::parameter_index("phi")];
 }
 
 void read_initial_stress(const TomlTable& root, host::Scene& scene) {
@@ -117,7 +112,6 @@ host::Scene read_scene(const std::string& path, const std::vector<std::string>& 
   scene.column.height = column.number("height", {1e-6, 1e4});
   if (root.has("wall")) read_placement(column, scene);
   read_material(root, scene);
-  scene.friction_angle = friction_angle(root, scene);
   read_initial_stress(root, scene);
   read_floor_and_gate(root, root.has("wall"), scene);
   read_numerics(root, scene);

@@ -20,12 +20,17 @@ struct CheckpointHeader {
   double particles = 0;
 };
 
+/// Time that a run has taken, s: of the clock on the wall and of all processors.
+struct Spent {
+  double wall = 0, processor = 0;
+};
+
 /// What a run remembers beside the simulation.
 struct RunProgress {
   ResultProgress result;
   double next_sample = 0, next_snapshot = 0, last_snapshot = -1; ///< s, simulated
   double rest_time = -1;                                         ///< s; negative: not at rest
-  double wall_seconds = 0;                                       ///< of all parts of the run
+  Spent spent;                                                   ///< by all parts of the run
 };
 
 /// The bytes of a checkpoint.

@@ -13,6 +13,7 @@ template <class Geometry, class F> void each_stored_item(Simulation<Geometry>& s
   item("dt", s.dt);
   item("dt_before", s.dt_before);
   item("first_dt", s.first_dt);
+  item("steepest", s.steepest);
   item("steps", s.steps);
   item("rebuilds", s.rebuilds);
   item("initial_potential_energy", s.initial_potential_energy);
@@ -60,8 +61,10 @@ template <class F> void each_stored_item(RunProgress& p, F&& item) {
   item("next_snapshot", p.next_snapshot);
   item("last_snapshot", p.last_snapshot);
   item("rest_time", p.rest_time);
-  item("wall_seconds", p.wall_seconds);
+  item("wall_seconds", p.spent.wall);
+  item("processor_seconds", p.spent.processor);
   item("snapshots", p.result.snapshots);
+  item("lost_snapshots", p.result.lost);
   int columns = int(p.result.series.size());
   item("columns", columns);
   p.result.series.resize(std::size_t(columns));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/guard.hpp"
 #include "host/geometry.hpp"
+#include "host/simulation.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 
 namespace host {
 namespace {
@@ -35,6 +37,35 @@ template <class Geometry> std::string named(const Particles<Geometry>& p, int i)
 
 constexpr auto advice = "a smaller numerics.step_factor may help";
 
+/// "particle 7 at (0.1, 0.2) m with 3 m/s"
+template <class Geometry> std::string fastest_of(const Particles<Geometry>& p) {
+  int fastest = 0;
+  for (int i = 1; i < p.count; ++i)
+    if (square_speed(p, i) > square_speed(p, fastest)) fastest = i;
+  return fmt::format("{} with {:.3g} m/s", named(p, fastest), std::sqrt(square_speed(p, fastest)));
+}
+
+bool rests(const Wall& wall) {
+  return wall.motion.time.empty();
+}
+
+/// Lowest vertical displacement, m, at the times that a wall's motion lists.
+double deepest_displacement(const WallMotion& motion, int up) {
+  double deepest = 0;
+  for (const double t : motion.time) deepest = std::min(deepest, motion.displacement(t)[up]);
+  return deepest;
+}
+
+/// Height of a wall that sand cannot be below, m; minus infinity if it bounds no height.
+double bottom_of(const Wall& wall, int up) {
+  constexpr double upright = 1 - 1e-12; // a unit normal that points up
+  double bottom = -std::numeric_limits<double>::infinity();
+  if (wall.shape == WallShape::plane && wall.normal[up] > upright) bottom = wall.point[up];
+  if (wall.shape == WallShape::box && wall.inside && wall.lower[up] > -0.5 * unbounded)
+    bottom = wall.lower[up];
+  return bottom + deepest_displacement(wall.motion, up);
+}
+
 } // namespace
 
 template <class Geometry>
@@ -55,17 +86,58 @@ void check_strain(const Particles<Geometry>& p, const BlockGradient<Geometry>& g
 template <class Geometry>
 void check_energy(const Particles<Geometry>& p, double time, double made, double unclosed) {
   if (made <= largest_made_energy && std::abs(unclosed) <= largest_unclosed_energy) return;
-  int fastest = 0;
-  for (int i = 1; i < p.count; ++i)
-    if (square_speed(p, i) > square_speed(p, fastest)) fastest = i;
   throw std::runtime_error(
       fmt::format("the energy went wrong at time {:.9g} s: {:.3g} of the initial potential energy was made "
                   "from nothing (at most "
-                  "{}), {:.3g} of it is unaccounted for (at most {}); the fastest is {} with {:.3g} m/s; {}",
-                  time, made, largest_made_energy, unclosed, largest_unclosed_energy, named(p, fastest),
-                  std::sqrt(square_speed(p, fastest)), advice));
+                  "{}), {:.3g} of it is unaccounted for (at most {}); the fastest is {}; {}",
+                  time, made, largest_made_energy, unclosed, largest_unclosed_energy, fastest_of(p), advice));
 }
 
+double lowest_level(const Scene& scene) {
+  const int up = scene.geometry == GeometryKind::three_dimensional ? 2 : 1;
+  double level = -std::numeric_limits<double>::infinity();
+  if (scene.floor.present) level = 0;
+  for (const Wall& wall : scene.walls) level = std::max(level, bottom_of(wall, up));
+  return std::isfinite(level) ? level : 0;
+}
+
+template <class Geometry> double energy_scale(const Simulation<Geometry>& s) {
+  double mass = 0;
+  for (int i = 0; i < s.particles.count; ++i) mass += s.particles.mass[i];
+  return s.initial_potential_energy - mass * s.scene.gravity * lowest_level(s.scene);
+}
+
+bool walls_rest(const Scene& scene) {
+  return std::ranges::all_of(scene.walls, rests);
+}
+
+double given_by_walls(const Scene& scene, const Work& work) {
+  if (walls_rest(scene)) return 0;
+  return std::max(work.wall, 0.0) + std::max(work.friction, 0.0);
+}
+
+template <class Geometry> void check_work(const Simulation<Geometry>& s) {
+  const double scale = energy_scale(s), by_walls = given_by_walls(s.scene, s.work);
+  const auto check = [&](const std::string& giver, double work, double most) {
+    if (work <= most * (scale + by_walls)) return; // false for what is no number
+    throw std::runtime_error(fmt::format(
+        "the energy went wrong at time {:.9g} s: {} gave the sand {:.3g} of the initial potential energy "
+        "(at most {} is sound); the fastest is {}; {}",
+        s.time, giver, work / scale, most, fastest_of(s.particles), advice));
+  };
+  check("artificial viscosity", s.work.viscosity, largest_viscous_gift);
+  for (std::size_t w = 0; w < s.walls.size(); ++w)
+    if (rests(s.walls[w]))
+      check(fmt::format("the wall '{}' at rest", s.walls[w].name), s.loads[w].work, largest_wall_gift);
+  if (walls_rest(s.scene)) check("the stress of pairs", s.work.stress, largest_pair_gift);
+}
+
+template double energy_scale(const Simulation<PlaneStrain>&);
+template double energy_scale(const Simulation<Axisymmetric>&);
+template double energy_scale(const Simulation<ThreeDimensional>&);
+template void check_work(const Simulation<PlaneStrain>&);
+template void check_work(const Simulation<Axisymmetric>&);
+template void check_work(const Simulation<ThreeDimensional>&);
 template void check_energy(const Particles<PlaneStrain>&, double, double, double);
 template void check_energy(const Particles<Axisymmetric>&, double, double, double);
 

@@ -66,8 +66,9 @@ void book(WallLoad& load, const std::array<double, D>& n, double mass, const dou
 
 /// The contact of one particle (from `from` to `x` at `v`) with all mirrors, booked in `work`.
 template <int D>
-void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double mass, const double (&from)[D],
-                 double (&x)[D], double (&v)[D], Work& work, std::array<WallLoad, 2>& load) {
+void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double mass, double dt,
+                 const double (&from)[D], double (&x)[D], double (&v)[D], Work& work,
+                 std::array<WallLoad, 2>& load) {
   constexpr int up = D - 1;
   for (const Mirror& mirror : mirrors) {
     const double height = x[up], energy = half_square(v), falling = v[up];
@@ -76,7 +77,9 @@ void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double 
     if (!faces(mirror, from, x)) continue;
     if (!hold_back(mirror, (mirror.wall ? contact_gap : axis_gap) * scene.spacing, x, v)) continue;
     ++work.guarded;
-    work.wall += mass * (half_square(v) - energy + scene.gravity * (x[up] - height));
+    // The velocity is that of half a step earlier: heights count from where the particle was then.
+    work.wall +=
+        mass * (half_square(v) - energy + scene.gravity * (x[up] - height - 0.5 * dt * (v[up] - falling)));
     if (!ends_below<D>(mirror)) {
       const double before = half_square(v);
       rub(scene.floor, v[up] - falling, v);
@@ -160,7 +163,7 @@ ClusterMotion move_cluster(Particles<Geometry>& p, const Scene& scene, const std
       x[a] = from[a] + dt * v[a];
     }
     if (pushed) book_push<D>(the_gate, reach, p.mass[i], from, push, by_friction, mean, motion.load);
-    touch_walls(scene, mirrors, p.mass[i], from, x, v, work, motion.load);
+    touch_walls(scene, mirrors, p.mass[i], dt, from, x, v, work, motion.load);
     for (int a = 0; a < D; ++a) {
       square += (x[a] - from[a]) * (x[a] - from[a]);
       p.velocity[a][i] = v[a];

@@ -22,8 +22,8 @@ struct Work {
 /// Distance, in spacings, at which a particle touches a wall: somewhat less than the half spacing at which
 /// lattices start, so that a resting layer is carried by the images' stress alone.
 inline constexpr double contact_gap = 0.4;
-/// The same for the axis, which only keeps 1/r finite.
-inline constexpr double axis_gap = 0.05;
+/// The same for the axis: a ring much narrower than half a spacing is stiff, and its section much larger than a particle.
+inline constexpr double axis_gap = 0.4;
 
 /// Work on particles in one step, what floor and gate took up, and the square of the largest displacement, m2.
 struct ClusterMotion {

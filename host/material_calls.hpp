@@ -7,6 +7,7 @@
 #include "host/guard.hpp"
 #include "host/reproducer.hpp"
 #include "host/stress.hpp"
+#include "host/vumat_utilities.hpp"
 #include <fmt/format.h>
 #include <mutex>
 #include <omp.h>
@@ -26,6 +27,7 @@ std::array<double, Geometry::stress_components> stress_of(const Particles<Geomet
 template <class Geometry>
 void pack_point(const Particles<Geometry>& p, int i, int k, double spacing, VumatBlock& b) {
   for (int a = 0; a < Geometry::dimension; ++a) b.coordinates[a * b.points + k] = p.position[a][i];
+  b.elements[k] = p.id[i] + 1;
   b.char_length[k] = spacing;
   b.density[k] = p.density[i];
   b.internal_energy_old[k] = p.internal_energy[i];
@@ -36,6 +38,7 @@ void pack_point(const Particles<Geometry>& p, int i, int k, double spacing, Vuma
 template <class Geometry> void pack(const Particles<Geometry>& p, int first, double spacing, VumatBlock& b) {
   const int n = b.points;
   for (int a = 0; a < Geometry::dimension; ++a) std::copy_n(&p.position[a][first], n, &b.coordinates[a * n]);
+  for (int k = 0; k < n; ++k) b.elements[k] = p.id[first + k] + 1;
   std::fill_n(b.char_length.begin(), n, spacing);
   std::copy_n(&p.density[first], n, b.density.begin());
   std::copy_n(&p.internal_energy[first], n, b.internal_energy_old.begin());
@@ -43,37 +46,11 @@ template <class Geometry> void pack(const Particles<Geometry>& p, int first, dou
   for (int s = 0; s < b.state_variables; ++s) std::copy_n(&p.state[s][first], n, &b.state_old[s * n]);
 }
 
-/// Index in the block of the first point whose answer is not finite or whose material reports a failure; -1 if
-/// there is none.
-inline int first_failure(const VumatBlock& b, int failure_state) {
-  const auto whole = [](const GuardedArray& a) { // an exponent of ones: infinite or no number
-    constexpr std::uint64_t ones = 0x7ff0000000000000;
-    bool finite = true;
-    for (const double x : a) finite &= (std::bit_cast<std::uint64_t>(x) & ones) != ones;
-    return finite;
-  };
-  bool sound = whole(b.stress_new) && whole(b.state_new) && whole(b.internal_energy_new) &&
-               whole(b.inelastic_energy_new);
-  if (failure_state >= 0)
-    for (int k = 0; k < b.points; ++k) sound &= !(b.state_new[failure_state * b.points + k] < 0);
-  if (sound) return -1;
-  for (int k = 0; k < b.points; ++k) {
-    double all = 0; // not finite if any of them is not
-    for (std::size_t c = k; c < b.stress_new.size(); c += b.points) all += b.stress_new[c] * 0;
-    for (std::size_t c = k; c < b.state_new.size(); c += b.points) all += b.state_new[c] * 0;
-    all += b.internal_energy_new[k] * 0 + b.inelastic_energy_new[k] * 0;
-    if (!std::isfinite(all)) return k;
-    if (failure_state >= 0 && b.state_new[failure_state * b.points + k] < 0) return k;
-  }
-  return -1;
-}
-
 /// The failure of the particle that comes first, with what its material was called with.
 struct Failure {
   std::mutex mutex;
   int particle = std::numeric_limits<int>::max();
-  std::string fault;
-  std::optional<PointCall> call;
+  std::optional<BadAnswer> bad;
 };
 
 /// Keeps the failure of the particle that comes first; `particle(k)` is that of point k. False if the block has
@@ -86,8 +63,7 @@ bool note_failure(ParticleOf&& particle, const Material& material, const Increme
   const std::scoped_lock lock(failure.mutex);
   if (particle(k) < failure.particle) {
     failure.particle = particle(k);
-    failure.fault = fault_of(b, k, failure_state);
-    failure.call = point_call(material, increment, b, k);
+    failure.bad = BadAnswer{fault_of(b, k, failure_state), point_call(material, increment, b, k)};
   }
   return true;
 }
@@ -117,26 +93,13 @@ void for_each_block(const Particles<Geometry>& p, const Material& material, Stre
   error.rethrow();
 }
 
-/// "(a, b, ...)" with six or nine digits.
-inline std::string listed(const GuardedArray& a, int digits) {
-  std::string text;
-  for (const double x : a) text += fmt::format("{}{:.{}g}", text.empty() ? "" : ", ", x, digits);
-  return "(" + text + ")";
-}
-
 template <class Geometry>
 [[noreturn]] void report_failure(const Particles<Geometry>& p, const Material& material,
                                  const Failure& failure, int failure_state) {
-  const auto& [increment, point] = *failure.call;
-  std::string position;
-  for (int a = 0; a < Geometry::dimension; ++a)
-    position += fmt::format("{}{:.6g}", a ? ", " : "", point.coordinates[a]);
-  const auto what = fmt::format("material {} {}: particle {} at time {:.9g} s, position ({}) m, stress "
-                                "before {} Pa, strain increment {}",
-                                material.name, failure.fault, p.id[failure.particle], increment.total_time,
-                                position, listed(point.stress_old, 9), listed(point.strain_increment, 6));
-  throw std::runtime_error(what +
-                           write_reproducer(reproducer_text(material, failure_state, *failure.call, what)));
+  const std::filesystem::path folder = job().folder;
+  throw std::runtime_error(
+      evidence_of(material, failure_state, *failure.bad, fmt::format("particle {}", p.id[failure.particle]),
+                  Geometry::dimension, folder.empty() ? folder : folder / "failed_point.toml"));
 }
 
 } // namespace host

@@ -39,6 +39,15 @@ void write_column(const H5::Group& group, const Quantity& column, const std::vec
   if (rows > 0) dataset.write(values.data(), real());
 }
 
+/// XDMF text without the grid that reads from `group`.
+std::string without_grid(std::string xdmf, const std::string& group) {
+  constexpr std::string_view begin = "   <Grid ", end = "</Grid>\n";
+  const auto inside = xdmf.find(group);
+  if (inside == std::string::npos) return xdmf;
+  const auto first = xdmf.rfind(begin, inside), last = xdmf.find(end, inside) + end.size();
+  return xdmf.erase(first, last - first);
+}
+
 } // namespace
 
 struct ResultFile::Impl {
@@ -49,6 +58,7 @@ struct ResultFile::Impl {
   std::map<std::string, std::pair<std::string, double>> summary; ///< unit and value by name
   ResultProgress done;
   std::optional<FolderLock> lock;
+  std::vector<std::filesystem::path> left_out;
   bool closed = false, pending = false; ///< pending: samples that are not on disk
   Clock::time_point written;
   Clock::duration cost{};
@@ -76,6 +86,14 @@ struct ResultFile::Impl {
 
   std::string name_of(int snapshot) const { return fmt::format(snapshot_name, snapshot); }
   std::filesystem::path part(const std::string& name) const { return parts / (name + ".h5"); }
+
+  /// Numbers of the snapshots that are there.
+  std::vector<int> kept() const {
+    std::vector<int> numbers;
+    for (int s = 0; s < done.snapshots; ++s)
+      if (std::ranges::find(done.lost, s) == done.lost.end()) numbers.push_back(s);
+    return numbers;
+  }
 
   /// Writes one group, `name`, as a file of its own.
   void write_part(const std::string& name, const std::function<void(const H5::Group&)>& fill) const {
@@ -118,7 +136,7 @@ struct ResultFile::Impl {
         throw H5::FileIException("H5Lcreate_external", "no link to " + target);
     };
     link(constants, constants);
-    for (int s = 0; s < done.snapshots; ++s) link(name_of(s), "snapshots/" + name_of(s));
+    for (const int s : kept()) link(name_of(s), "snapshots/" + name_of(s));
     write_whole(path, file_image(file));
     pending = false;
     written = Clock::now();
@@ -146,20 +164,30 @@ struct ResultFile::Impl {
           throw H5::FileIException("H5Ocopy", "no copy of " + part(name).string());
       };
       copy(constants, constants);
-      for (int s = 0; s < done.snapshots; ++s) copy(name_of(s), "snapshots/" + name_of(s));
+      for (const int s : kept()) copy(name_of(s), "snapshots/" + name_of(s));
       file.flush(H5F_SCOPE_GLOBAL);
     }
     take_place(path);
   }
 
-  /// What is in a part must be readable before a run builds on it.
-  void require_part(const std::string& name) const {
+  /// True if all of a snapshot is there: its time is written last.
+  bool is_readable(const std::string& name) const {
     try {
-      open_to_read(part(name)).openGroup(name);
+      const auto group = open_to_read(part(name)).openGroup(name);
+      for (hsize_t k = 0; k < group.getNumObjs(); ++k) group.openDataSet(group.getObjnameByIdx(k));
+      return group.attrExists("time");
     } catch (const H5::Exception&) {
-      throw std::runtime_error(fmt::format("{}: missing or not readable; without it the run cannot be "
-                                           "continued",
-                                           part(name).string()));
+      return false;
+    }
+  }
+
+  /// Leaves out the snapshots that cannot be read.
+  void drop_unreadable() {
+    for (const int s : kept()) {
+      if (is_readable(name_of(s))) continue;
+      done.lost.push_back(s);
+      done.xdmf = without_grid(done.xdmf, "/snapshots/" + name_of(s) + "/");
+      left_out.push_back(part(name_of(s)));
     }
   }
 };
@@ -178,9 +206,8 @@ ResultFile::ResultFile(const std::filesystem::path& path, const ResultHeader& he
 ResultFile::ResultFile(const std::filesystem::path& path, const ResultHeader& header,
                        const std::vector<Quantity>& series, const ResultProgress& progress)
     : impl(new Impl(path, header, series)) {
-  impl->require_part(constants);
-  for (int s = 0; s < progress.snapshots; ++s) impl->require_part(impl->name_of(s));
   impl->done = progress;
+  impl->drop_unreadable();
   impl->done.columns = series;
   impl->done.series.resize(series.size());
   impl->pending = true; // with the outline's radii, or later
@@ -259,6 +286,10 @@ void ResultFile::flush() {
 
 ResultProgress ResultFile::progress() const {
   return impl->done;
+}
+
+const std::vector<std::filesystem::path>& ResultFile::left_out() const {
+  return impl->left_out;
 }
 
 void ResultFile::close() {

@@ -38,8 +38,9 @@ struct Field {
 struct ResultProgress {
   std::vector<Quantity> columns;
   std::vector<std::vector<double>> series; ///< one per column
-  int snapshots = 0;
-  std::string xdmf; ///< of these snapshots
+  int snapshots = 0;                       ///< the next one's number
+  std::vector<int> lost;                   ///< numbers of those that could not be read when the run went on
+  std::string xdmf;                        ///< of the others
 };
 
 /// Throws std::runtime_error with one line that names the file, whatever goes wrong.
@@ -48,8 +49,9 @@ public:
   /// Creates missing folders and the file (an older one is replaced), writes the header.
   ResultFile(const std::filesystem::path& path, const ResultHeader& header,
              const std::vector<Quantity>& series);
-  /// Continues a file from `progress`: what was written after that is dropped. The snapshots up to there and
-  /// the constant particle data must be in the folder beside it.
+  /// Continues a file from `progress`: what was written after that is dropped. Snapshots up to there that are
+  /// missing in the folder beside it, or cannot be read, are left out; see `left_out`. The constant particle
+  /// data must be written again.
   ResultFile(const std::filesystem::path& path, const ResultHeader& header,
              const std::vector<Quantity>& series, const ResultProgress& progress);
   /// Closes without the mark of completeness.
@@ -72,6 +74,8 @@ public:
   /// Brings all samples to disk.
   void flush();
   ResultProgress progress() const;
+  /// The files of snapshots that were lost when this run went on.
+  const std::vector<std::filesystem::path>& left_out() const;
   /// Joins the snapshots to one file, marks the run as complete and closes both files.
   void close();
 

@@ -3,6 +3,7 @@
 #include "host/gradient.hpp"
 #include "host/guard.hpp"
 #include "host/material_calls.hpp"
+#include <algorithm>
 
 namespace host {
 namespace {
@@ -20,22 +21,28 @@ void find_gradients(const Particles<Geometry>& p, const Kernel<Geometry::dimensi
   }
 }
 
+/// Largest component of the gradients, 1/s.
 template <class Geometry>
-void show_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, int count,
-                const Numerics& numerics, double h, Records<Geometry>& records) {
+double show_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, int count,
+                  const Numerics& numerics, double h, Records<Geometry>& records) {
   std::array<double, Geometry::dimension * Geometry::dimension> slope;
+  double steepest = 0;
   for (int k = 0; k < count; ++k) {
-    for (std::size_t e = 0; e < slope.size(); ++e) slope[e] = gradient.component[e][k];
+    for (std::size_t e = 0; e < slope.size(); ++e) {
+      slope[e] = gradient.component[e][k];
+      steepest = std::max(steepest, std::abs(slope[e]));
+    }
     show_stress_of(p, first + k, slope, numerics, h, records);
   }
+  return steepest;
 }
 
 } // namespace
 
 template <class Geometry>
-void deform(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel, const NeighbourLists& lists,
-            const Scene& scene, const Increment& increment, StressBlocks& blocks,
-            Records<Geometry>& records) {
+double deform(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel, const NeighbourLists& lists,
+              const Scene& scene, const Increment& increment, StressBlocks& blocks,
+              Records<Geometry>& records) {
   const double start = increment.total_time - increment.dt;
   Failure failure;
   for_each_block(p, scene.material, blocks, [&](int first, VumatBlock& b) {
@@ -43,9 +50,11 @@ void deform(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel, c
     find_gradients(p, kernel, lists, records, first, b.points, gradient);
     check_strain(p, gradient, first, b.points, start, increment.dt);
     advance_stress(p, scene.material, increment, blocks, gradient, first, b, failure);
-    show_block(p, gradient, first, b.points, scene.numerics, kernel.h, records);
+    blocks.steepest[first / StressBlocks::points] =
+        show_block(p, gradient, first, b.points, scene.numerics, kernel.h, records);
   });
-  if (failure.call) report_failure(p, scene.material, failure, blocks.failure_state);
+  if (failure.bad) report_failure(p, scene.material, failure, blocks.failure_state);
+  return std::ranges::max(blocks.steepest);
 }
 
 template <class Geometry>
@@ -71,18 +80,18 @@ ClusterMotion move(Particles<Geometry>& p, const Kernel<Geometry::dimension>& ke
   return all;
 }
 
-template void deform(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
-                     const Increment&, StressBlocks&, Records<PlaneStrain>&);
+template double deform(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
+                       const Increment&, StressBlocks&, Records<PlaneStrain>&);
 template ClusterMotion move(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
                             const std::vector<Mirror>&, double, double, const Records<PlaneStrain>&,
                             std::vector<ClusterMotion>&);
-template void deform(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
-                     const Increment&, StressBlocks&, Records<Axisymmetric>&);
+template double deform(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
+                       const Increment&, StressBlocks&, Records<Axisymmetric>&);
 template ClusterMotion move(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
                             const std::vector<Mirror>&, double, double, const Records<Axisymmetric>&,
                             std::vector<ClusterMotion>&);
-template void deform(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&, const Scene&,
-                     const Increment&, StressBlocks&, Records<ThreeDimensional>&);
+template double deform(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&, const Scene&,
+                       const Increment&, StressBlocks&, Records<ThreeDimensional>&);
 template ClusterMotion move(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&,
                             const Scene&, const std::vector<Mirror>&, double, double,
                             const Records<ThreeDimensional>&, std::vector<ClusterMotion>&);

@@ -84,10 +84,10 @@ StoredRun read_checkpoint_run(const std::filesystem::path& path) {
   run.particles = header.particles;
   run.time = header.time;
   run.steps = header.steps;
-  run.snapshots = progress.result.snapshots;
+  run.snapshots = progress.result.snapshots - int(progress.result.lost.size());
   for (std::size_t c = 0; c < progress.result.columns.size(); ++c)
     run.series.push_back({progress.result.columns[c], progress.result.series[c]});
-  run.summary.push_back({{"wall_clock", "s"}, progress.wall_seconds});
+  run.summary.push_back({{"wall_clock", "s"}, progress.spent.wall});
   return run;
 }
 

@@ -17,11 +17,9 @@ template <class Geometry, class Real> struct StepStrain {
 };
 
 /// Of a particle (or of eight) whose gradient is `gradient`, 1/s; `r` and `v_r` are its first coordinate and
-/// velocity. The hoop strain rate is v_r / r; within a spacing of the axis it is d v_r / d r, which is the same where
-/// a flow is regular: there v_r / r turns each jitter of the innermost ring into strain, and its stress would
-/// grow to many times that of its neighbours during a collapse. By symmetry shear in the plane of the axis and its
-/// radius vanishes on the axis, and so does the stress it makes: the ring within a spacing of the axis takes none.
-/// With it, noise there loads a pillar of several times the stress around it, which may burst.
+/// velocity. The hoop strain rate is v_r / r, which is what the hoop force works on. By symmetry shear in the plane of
+/// the axis and its radius vanishes on the axis, and so does the stress it makes: the ring within a spacing of the axis
+/// takes none. With it, noise there loads a pillar of several times the stress around it, which may burst.
 template <class Geometry, class Real, std::size_t N>
 inline StepStrain<Geometry, Real> step_strain(const std::array<Real, N>& gradient, const Real& r,
                                               const Real& v_r, double dt, double spacing) {
@@ -32,8 +30,7 @@ inline StepStrain<Geometry, Real> step_strain(const std::array<Real, N>& gradien
   if constexpr (D == 2) {
     Real hoop{}, in_plane = shear(0, 1);
     if constexpr (Geometry::hoop) {
-      const Real rate = v_r / r;
-      hoop = dt * (r < spacing ? l(0, 0) : rate);
+      hoop = dt * v_r / r;
       in_plane = r < spacing ? Real{} : in_plane;
     }
     return {{l(0, 0) * dt, l(1, 1) * dt, hoop, in_plane}, {turn(0, 1)}};

@@ -50,27 +50,36 @@ template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
     show_all_motion(s);
 }
 
-/// Wave and flow speed of the particles of cluster c together, m/s.
-template <class Geometry> Lane speeds(const Particles<Geometry>& p, int c) {
+/// Flow speed of the particles of cluster c, m/s.
+template <class Geometry> Lane flow_speed(const Particles<Geometry>& p, int c) {
   Lane square{};
   for (const auto& velocity : p.velocity) {
     const Lane v = load(&velocity[c * lanes]);
     square += v * v;
   }
-  return load(&p.wave_speed[c * lanes]) + square_root(square);
+  return square_root(square);
 }
 
-/// The largest of them; what is no number is left out.
-template <class Geometry> double fastest_of(const Particles<Geometry>& p) {
-  Lane most{};
-  for (int c = 0; c < p.clusters(); ++c) most = larger(speeds(p, c), most);
-  return largest(most);
+/// Largest speeds of all particles; what is no number is left out.
+struct Speeds {
+  double sum = 0, flow = 0; ///< m/s, of wave and flow together; of the flow alone
+  double hoop = 0;          ///< 1/s, axisymmetry: wave speed over radius
+};
+template <class Geometry> Speeds fastest_of(const Particles<Geometry>& p) {
+  Lane sum{}, flow{}, hoop{};
+  for (int c = 0; c < p.clusters(); ++c) {
+    const Lane v = flow_speed(p, c), wave = load(&p.wave_speed[c * lanes]);
+    sum = larger(wave + v, sum);
+    flow = larger(v, flow);
+    if constexpr (Geometry::hoop) hoop = larger(wave / load(&p.position[0][c * lanes]), hoop);
+  }
+  return {largest(sum), largest(flow), largest(hoop)};
 }
 
 [[noreturn]] void step_too_short(const auto& s, double fastest) {
   const auto& p = s.particles;
   int at = 0;
-  while (at < p.count - 1 && speeds(p, at / lanes)[at % lanes] != fastest) ++at;
+  while (at < p.count - 1 && p.wave_speed[at] + flow_speed(p, at / lanes)[at % lanes] != fastest) ++at;
   std::vector<double> place;
   for (const auto& x : p.position) place.push_back(x[at]);
   throw std::runtime_error(
@@ -79,18 +88,23 @@ template <class Geometry> double fastest_of(const Particles<Geometry>& p) {
                   s.time, s.dt, s.first_dt, p.id[at], fmt::join(place, ", "), fastest));
 }
 
-/// Step from the current wave speed. It shrinks at once and grows slowly: a deposit that opens up for a
-/// moment shows no wave, and stiffens again within a few steps.
+/// Step from the current wave speed; in axisymmetry also from the hoop stiffness, with which a ring of radius r swings
+/// at c / r. It shrinks at once and grows slowly: a deposit that opens up for a moment shows no wave, and stiffens
+/// again within a few steps. Sand in flight shows hardly any and stiffens all at once where it lands: there the way of a
+/// step bounds it, and its strain with the velocity gradients of the step before.
 template <class Geometry> void choose_step(Simulation<Geometry>& s) {
   constexpr double growth = 1.02, smallest = 1e-3; // of the step before; of the first step
+  constexpr double way = 0.05, strain = 0.005;     // spacings; flowing columns stay below both
+  constexpr double swing = 1.3;                    // rad; 2 is the limit of a ring alone
   update_wave_speed(s.particles, s.scene.material, s.blocks, s.steps);
-  const double fastest = fastest_of(s.particles);
-  const double growing =
-      1 + 0.5 * s.scene.numerics.wave_speed_tolerance; // a modulus grows at most with the stress
-  const double wanted = s.scene.numerics.step_factor * s.kernel.h / (growing * fastest);
-  s.dt = s.steps == 0 ? wanted : std::min(wanted, growth * s.dt);
+  const Speeds fastest = fastest_of(s.particles);
+  const double growing = 1 + 0.5 * s.scene.numerics.wave_speed_tolerance; // of a modulus: at most with stress
+  const double by_wave =
+      std::min(s.scene.numerics.step_factor * s.kernel.h / fastest.sum, swing / fastest.hoop) / growing;
+  const double by_motion = std::min(way * s.scene.spacing / fastest.flow, strain / s.steepest);
+  s.dt = s.steps == 0 ? by_wave : std::min({by_wave, by_motion, growth * s.dt});
   if (s.steps == 0) s.first_dt = s.dt;
-  if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt)) step_too_short(s, fastest);
+  if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt)) step_too_short(s, fastest.sum);
 }
 
 /// Adds to the loads of floor and gate, or to those of all walls.
@@ -170,7 +184,7 @@ template <class Geometry> void step(Simulation<Geometry>& s) {
   timed(s, Stage::wave_speed, [&] { choose_step(s); });
   timed(s, Stage::deformation, [&] {
     const Increment increment{s.time + s.dt, s.time + s.dt, s.dt};
-    deform(s.particles, s.kernel, s.lists, s.scene, increment, s.blocks, s.records);
+    s.steepest = deform(s.particles, s.kernel, s.lists, s.scene, increment, s.blocks, s.records);
     reflect_stress(s.images, s.mirrors, s.records);
     reflect_wall_stress(s.images, s.surfaces, s.mirrors.size(), s.scene, s.records);
   });

@@ -14,6 +14,7 @@ StressBlocks make_stress_blocks(const Material& material, const Particles<Geomet
                      VumatBlock(material, StressBlocks::points, Geometry::shear_components));
   if (const int left = p.count % StressBlocks::points)
     blocks.tail.emplace_back(material, left, Geometry::shear_components);
+  blocks.steepest.assign((p.count + StressBlocks::points - 1) / StressBlocks::points, 0);
   return blocks;
 }
 
@@ -87,7 +88,7 @@ void update_stress(Particles<Geometry>& p, const Material& material, const Incre
         p.stress[c][i] += p.stress_diffusion[c][i] * increment.dt;
     advance_stress(p, material, increment, blocks, gradient, first, b, failure);
   });
-  if (failure.call) report_failure(p, material, failure, blocks.failure_state);
+  if (failure.bad) report_failure(p, material, failure, blocks.failure_state);
 }
 
 /// Diffusivity of stress, m2/s: delta h2 |grad v|, so that noise is smoothed as it arises, by strain, and a

@@ -20,8 +20,9 @@ struct StressBlocks {
   int failure_state = -1;           ///< position in STATEV that is negative after a failed update; -1: none
   double spacing = 0;               ///< m, the characteristic length of a particle
   std::vector<VumatBlock> full, tail;
-  double tolerance = 0; ///< relative change of stress up to which a wave speed is kept; 0: none is
-  std::vector<int> due; ///< particles whose wave speed is asked for in this step
+  double tolerance = 0;         ///< relative change of stress up to which a wave speed is kept; 0: none is
+  std::vector<int> due;         ///< particles whose wave speed is asked for in this step
+  std::vector<double> steepest; ///< 1/s, for each block the largest component of its velocity gradients
 };
 
 template <class Geometry>

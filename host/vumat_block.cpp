@@ -6,6 +6,7 @@
 #include <cctype>
 #include <fmt/format.h>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 
 namespace host {
@@ -19,6 +20,14 @@ std::array<char, vumat::name_length> padded_upper(const std::string& name) {
   return out;
 }
 
+/// Argument 7: an array since ABAQUS 2023, whose first entry keeps the old meaning (annealing). Then integration
+/// point, layer, section point, the flag of an effective modulus, and where the element numbers start, from 1.
+void put_info(VumatBlock& b) {
+  constexpr std::array<int, 8> head{0, 1, 1, 1, 0, 9, 0, 0};
+  std::copy(head.begin(), head.end(), b.info.data());
+  std::copy(b.elements.begin(), b.elements.end(), b.info.data() + head.size());
+}
+
 /// Outputs before a call, and the copies that a subroutine may have overwritten in the last one.
 void preset(const Material& material, const Increment& increment, VumatBlock& b) {
   std::copy(b.state_old.begin(), b.state_old.end(), b.state_new.begin());
@@ -27,25 +36,24 @@ void preset(const Material& material, const Increment& increment, VumatBlock& b)
   std::fill(b.stress_new.begin(), b.stress_new.end(), unwritten_word);
   std::fill(b.dt.begin(), b.dt.end(), increment.dt);
   std::copy(material.properties.begin(), material.properties.end(), b.constants.begin());
+  std::copy(b.name.begin(), b.name.end(), b.passed_name.data());
+  put_info(b);
 }
 
 void invoke(const Material& material, const Increment& increment, VumatBlock& b) {
   int direct = 3, shear = b.shear_components, states = b.state_variables, fields = 0;
   int nblock = b.points, constants = int(b.constants.size());
-  // None is const: a subroutine may overwrite them. Argument 7 is an array since 2023; its first entry keeps
-  // the old meaning.
-  std::array<int, 8 + vumat::max_block> info{};
+  // None is const: a subroutine may overwrite them.
   double step_time = increment.step_time, total_time = increment.total_time;
-  auto name = b.name;
-  material.library.call(&nblock, &direct, &shear, &states, &fields, &constants, info.data(), &step_time,
-                        &total_time, b.dt.data(), name.data(), b.coordinates.data(), b.char_length.data(),
-                        b.constants.data(), b.density.data(), b.strain_increment.data(),
+  material.library.call(&nblock, &direct, &shear, &states, &fields, &constants, b.info.data(), &step_time,
+                        &total_time, b.dt.data(), b.passed_name.data(), b.coordinates.data(),
+                        b.char_length.data(), b.constants.data(), b.density.data(), b.strain_increment.data(),
                         b.spin_increment.data(), b.temperature_old.data(), b.stretch_old.data(),
                         b.gradient_old.data(), b.field_old.data(), b.stress_old.data(), b.state_old.data(),
                         b.internal_energy_old.data(), b.inelastic_energy_old.data(), b.temperature_new.data(),
                         b.stretch_new.data(), b.gradient_new.data(), b.field_new.data(), b.stress_new.data(),
                         b.state_new.data(), b.internal_energy_new.data(), b.inelastic_energy_new.data(),
-                        name.size());
+                        b.passed_name.size());
 }
 
 /// The call, with whatever leaves it as an exception turned into an error that names the material.
@@ -72,8 +80,9 @@ void invoke_guarded(const Material& material, const Increment& increment, VumatB
 } // namespace
 
 VumatBlock::VumatBlock(const Material& material, int points_, int shear)
-    : points(points_), shear_components(shear), state_variables(material.state_variables),
-      name(padded_upper(material.name)) {
+    : points(points_), shear_components(shear), state_variables(material.state_variables), elements(points_),
+      name(padded_upper(material.name)), info(8 + elements.size()), passed_name(name.size()) {
+  std::iota(elements.begin(), elements.end(), 1);
   const auto make = [&](GuardedArray& a, int components, double value = 0) {
     a.assign(std::size_t(points) * components, value, 4 * std::size_t(points));
   };

@@ -53,9 +53,12 @@ struct VumatBlock {
   GuardedArray temperature_old, temperature_new, field_old, field_new;
   GuardedArray dt;                           ///< argument 10: an array since 2023
   std::vector<Tensor> rotation_new;          ///< R at the end, for the caller; not shown to the material
+  std::vector<int> elements;                 ///< user element number of each point; 1, 2, ... unless filled
   std::array<char, vumat::name_length> name; ///< of the material, as it is passed
-  long calls = 0;                            ///< so far
-  std::vector<double> input_copy;            ///< of the last call that was compared
+  GuardedIntegers info;                      ///< argument 7, written anew for each call, as is the name
+  GuardedText passed_name;
+  long calls = 0;                 ///< so far
+  std::vector<double> input_copy; ///< of the last call that was compared
 };
 
 /// Calls `f(name, array, is_input)` for all arrays of a block, by their names in ABAQUS. What a subroutine may

@@ -13,6 +13,12 @@ namespace {
   throw std::runtime_error(fmt::format("material {}: {}", material.name, what));
 }
 
+/// The arguments that are no arrays of reals.
+template <class F> void each_of_words(const VumatBlock& block, F&& f) {
+  f("jInfoArray", block.info);
+  f("cmname", block.passed_name);
+}
+
 } // namespace
 
 void check_guards(const Material& material, const VumatBlock& block, bool far) {
@@ -22,15 +28,20 @@ void check_guards(const Material& material, const VumatBlock& block, bool far) {
     intact &= a.intact_after();
     if (far) intact &= a.intact_far_after();
   });
+  each_of_words(block, [&](const char*, const auto& a) { intact &= a.intact_before() & a.intact_after(); });
   const auto& constants = material.properties;
   intact &= constants.empty() ||
             std::memcmp(block.constants.data(), constants.data(), constants.size() * sizeof(double)) == 0;
   if (intact) return;
+  const auto refuse_unless = [&](const char* name, bool after, bool before) {
+    if (!after) refuse(material, fmt::format("its subroutine wrote beyond the end of {}", name));
+    if (!before) refuse(material, fmt::format("its subroutine wrote before the start of {}", name));
+  };
   each_array(block, [&](const char* name, const GuardedArray& a, bool) {
-    if (!a.intact_far_after())
-      refuse(material, fmt::format("its subroutine wrote beyond the end of {}", name));
-    if (!a.intact_before())
-      refuse(material, fmt::format("its subroutine wrote before the start of {}", name));
+    refuse_unless(name, a.intact_far_after(), a.intact_before());
+  });
+  each_of_words(block, [&](const char* name, const auto& a) {
+    refuse_unless(name, a.intact_after(), a.intact_before());
   });
   refuse(material, "its subroutine wrote to props, which is an input (may_write_inputs = true lets it)");
 }

@@ -67,6 +67,29 @@ private:
   std::size_t length = 0;
 };
 
+/// Integers or characters for a subroutine, with guard words at both ends.
+template <class Word, Word guard> class GuardedWords {
+public:
+  static constexpr std::size_t guards = 16;
+
+  /// Its words are the caller's to write.
+  explicit GuardedWords(std::size_t size) : words(size + 2 * guards, guard) {}
+  Word* data() { return words.data() + guards; }
+  std::size_t size() const { return words.size() - 2 * guards; }
+  bool intact_before() const { return intact(words.data()); }
+  bool intact_after() const { return intact(words.data() + guards + size()); }
+
+private:
+  static bool intact(const Word* word) {
+    int differing = 0;
+    for (std::size_t i = 0; i < guards; ++i) differing |= word[i] ^ guard;
+    return differing == 0;
+  }
+  std::vector<Word> words;
+};
+using GuardedIntegers = GuardedWords<int, 0x5afe5afe>;
+using GuardedText = GuardedWords<char, '\x1a'>;
+
 struct Material;
 struct VumatBlock;
 

@@ -100,7 +100,7 @@ void update_wave_speed(Particles<Geometry>& p, const Material& material, StressB
     update_due(p, material, blocks, failure);
   } else
     update_all(p, material, blocks, failure);
-  if (failure.call) report_failure(p, material, failure, blocks.failure_state);
+  if (failure.bad) report_failure(p, material, failure, blocks.failure_state);
 }
 
 template void update_wave_speed(Particles<PlaneStrain>&, const Material&, StressBlocks&, long);

@@ -20,7 +20,8 @@ namespace {
 void add_element(CLI::App& app) {
   static charts::ElementOptions options; // CLI11 writes into it
   auto* element = app.add_subcommand("element", "Integrators of the material: error, cost and failures");
-  element->add_option("-o,--output", options.folder, "folder for element.csv")->capture_default_str();
+  element->add_option("-o,--output", options.folder, "folder for element.csv and its pictures")
+      ->capture_default_str();
   element->add_option("--states", options.states,
                       "updates sampled from a run (states.csv of `chart increments`)");
   element->add_option("--increments", options.increments, "sizes of the strain increments")
@@ -31,6 +32,8 @@ void add_element(CLI::App& app) {
       ->check(CLI::Range(0., 0.9999));
   element->add_option("--repetitions", options.repetitions, "of each measurement of cost; the least counts")
       ->check(CLI::Range(1, 100));
+  element->add_flag("--figures,!--no-figures", options.figures,
+                    "pictures, of increments.csv beside the table too (python3-matplotlib); the default");
   element->callback([] { charts::chart_element(options); });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/charts/element_chart.hpp"
+#include "drivers/element/pictures.hpp"
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -38,6 +39,13 @@ void print_rows(const std::vector<Row>& rows) {
                  r.drifted, r.nanoseconds);
 }
 
+void draw(const std::filesystem::path& folder) {
+  drivers::Words tables{(folder / "element.csv").string()};
+  if (const auto increments = folder / "increments.csv"; std::filesystem::exists(increments))
+    tables.push_back(increments.string());
+  drivers::run_script("chart_figures.py", tables, folder.string());
+}
+
 } // namespace
 
 void chart_element(const ElementOptions& options) {
@@ -63,6 +71,8 @@ void chart_element(const ElementOptions& options) {
   std::filesystem::create_directories(folder);
   write_rows(rows, folder / "element.csv");
   fmt::print("\n{}\n", (folder / "element.csv").string());
+  std::fflush(stdout); // before what the script says
+  if (options.figures) draw(folder);
 }
 
 } // namespace charts

@@ -12,6 +12,7 @@ struct ElementOptions {
   std::vector<double> increments{1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
   CaseChoice choice;
   int repetitions = 3; ///< of each measurement of cost, of which the least counts
+  bool figures = true; ///< draw the tables: element.csv, and increments.csv where it lies beside it
 };
 
 /// How one method did on one group of cases. Errors are |stress - reference| over the largest of reference, first
@@ -43,7 +44,7 @@ std::vector<Target> targets_of(const std::vector<Case>& cases, const std::vector
 std::vector<Row> compare(const std::vector<Case>& cases, const std::vector<std::vector<double>>& props,
                          const std::vector<Method>& methods, int repetitions);
 
-/// Writes element.csv and prints a table. Throws std::runtime_error.
+/// Writes element.csv, prints a table and draws. Throws std::runtime_error.
 void chart_element(const ElementOptions& options);
 
 } // namespace charts

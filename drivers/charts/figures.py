@@ -2,17 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of the integrators' comparison: figures.py ELEMENT.csv [INCREMENTS.csv] [-o FOLDER]
 
-ELEMENT.csv is written by `simsand chart element`, INCREMENTS.csv by `simsand chart increments`.
+ELEMENT.csv is written by `simsand chart element`, which runs this script, INCREMENTS.csv by `simsand chart increments`.
 """
 import argparse
 import csv
 import pathlib
+import sys
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+except ImportError as error:
+    sys.exit(f"figures.py: needs numpy and matplotlib ({error}): apt-get install python3-matplotlib")
 
 # Colours that stay apart for colour-blind readers (Okabe and Ito).
 STYLE = {

@@ -9,14 +9,15 @@
 namespace charts {
 namespace {
 
-constexpr int components = 6, states = int(simsand::state_variables.size());
+constexpr int states = int(simsand::state_variables.size());
 namespace statev = simsand::statev;
 
 } // namespace
 
-template <class Real> LibraryBlock<Real>::LibraryBlock(int points_) : points(points_) {
+template <class Real>
+LibraryBlock<Real>::LibraryBlock(int points_, int shear_) : points(points_), shear(shear_) {
   const std::size_t n = points;
-  for (auto* a : {&strain, &stress_old, &stress_new}) a->assign(n * components, 0);
+  for (auto* a : {&strain, &stress_old, &stress_new}) a->assign(n * components(), 0);
   for (auto* a : {&state_old, &state_new}) a->assign(n * states, 0);
   for (auto* a : {&internal_old, &internal_new, &inelastic_old, &inelastic_new}) a->assign(n, 0);
   density.assign(n, 1); // energies per volume
@@ -24,7 +25,7 @@ template <class Real> LibraryBlock<Real>::LibraryBlock(int points_) : points(poi
 
 template <class Real>
 void LibraryBlock<Real>::put(int k, const Point& point, const Tensor& strain_increment) {
-  for (int c = 0; c < components; ++c) {
+  for (int c = 0; c < components(); ++c) {
     strain[c * points + k] = Real(-strain_increment[c]);
     stress_old[c * points + k] = Real(-point.stress[c]);
   }
@@ -41,7 +42,7 @@ namespace {
 template <class Real>
 Point point_of(const std::vector<Real>& stress, const std::vector<Real>& states_of_all, int points, int k) {
   Point point;
-  for (int c = 0; c < components; ++c) point.stress[c] = -double(stress[c * points + k]);
+  for (int c = 0; c * points < int(stress.size()); ++c) point.stress[c] = -double(stress[c * points + k]);
   const auto state = [&](int index) { return double(states_of_all[index * points + k]); };
   point.void_ratio = state(statev::void_ratio);
   point.plastic_strain = state(statev::plastic_deviatoric_strain);
@@ -57,7 +58,7 @@ template <class Real> Point LibraryBlock<Real>::get(int k) const {
 
 template <class Real> void LibraryBlock<Real>::given(int k, Point& point, Tensor& strain_increment) const {
   point = point_of(stress_old, state_old, points, k);
-  for (int c = 0; c < components; ++c) strain_increment[c] = -double(strain[c * points + k]);
+  for (int c = 0; c < components(); ++c) strain_increment[c] = -double(strain[c * points + k]);
 }
 
 template <class Real> int LibraryBlock<Real>::status(int k) const {
@@ -73,7 +74,7 @@ template <class Real> void LibraryBlock<Real>::advance() {
 
 template <class Real>
 void LibraryBlock<Real>::call(vumat::Subroutine<Real>* subroutine, std::span<const Real> props) {
-  const int direct = 3, shear = 3, fields = 0, constants = int(props.size()), annealing = 0;
+  const int direct = 3, fields = 0, constants = int(props.size()), annealing = 0;
   const Real time = 1, step = Real(1e-5);
   std::array<char, vumat::name_length> name;
   name.fill(' ');

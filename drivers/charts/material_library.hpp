@@ -9,10 +9,12 @@
 namespace charts {
 
 template <class Real> struct LibraryBlock {
-  explicit LibraryBlock(int points);
+  /// With one component of shear the last two of each tensor are left out.
+  explicit LibraryBlock(int points, int shear = 3);
 
   /// Component c of point k at [c * points + k], tension positive, as the interface has them.
-  int points;
+  int points, shear;
+  int components() const { return 3 + shear; }
   std::vector<Real> strain, stress_old, stress_new, state_old, state_new;
   std::vector<Real> density, internal_old, internal_new, inelastic_old, inelastic_new;
 

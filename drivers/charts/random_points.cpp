@@ -10,14 +10,15 @@ namespace {
 /// Random numbers of one block.
 class Dice {
 public:
-  explicit Dice(std::uint64_t seed) : generator(seed) {}
+  Dice(std::uint64_t seed, int shear) : components(3 + shear), generator(seed) {}
+  const int components; ///< of all tensors; the others are zero
   double uniform() { return uniform_(generator); }
   bool chance(double share) { return uniform() < share; }
   double power(double from, double to) { return std::pow(10, from + (to - from) * uniform()); }
   /// All directions alike; sqrt(a : a) = 1.
   Tensor direction() {
     Tensor t;
-    for (int c = 0; c < 6; ++c) t[c] = normal_(generator) * (c < 3 ? 1 : std::sqrt(0.5));
+    for (int c = 0; c < components; ++c) t[c] = normal_(generator) * (c < 3 ? 1 : std::sqrt(0.5));
     return simsand::scale(1 / norm(t), t);
   }
 
@@ -75,8 +76,8 @@ void spoil(RandomPoint& r, Dice& dice) {
                infinite = std::numeric_limits<double>::infinity();
   const double bad = dice.chance(0.5) ? nan : infinite;
   const int where = int(6 * dice.uniform());
-  if (where == 0) r.point.stress[int(6 * dice.uniform())] = bad;
-  if (where == 1) r.strain[int(6 * dice.uniform())] = -bad;
+  if (where == 0) r.point.stress[int(dice.components * dice.uniform())] = bad;
+  if (where == 1) r.strain[int(dice.components * dice.uniform())] = -bad;
   if (where == 2) r.point.void_ratio = bad;
   if (where == 3) r.point.void_ratio = -r.point.void_ratio;
   if (where == 4) r.point.plastic_strain = -1e-6 - r.point.plastic_strain;
@@ -102,8 +103,9 @@ RandomPoint random_point(const Material& m, Dice& dice) {
 } // namespace
 
 RandomBlock random_points(std::uint64_t seed, std::int64_t index) {
-  Dice dice(hash_of(seed, double(index)));
-  RandomBlock block{int(index % 3), {}};
+  const int shear = index % 8 == 7 ? 1 : 3;
+  Dice dice(hash_of(seed, double(index)), shear);
+  RandomBlock block{int(index % 3), shear, {}};
   const auto m = material_of(properties(sands[block.sand]));
   for (int k = 0; k < random_block; ++k) block.points.push_back(random_point(m, dice));
   return block;

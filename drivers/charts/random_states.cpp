@@ -68,7 +68,7 @@ template <class Real> bool same_bits(const LibraryBlock<Real>& one, const Librar
 
 /// A point alone, with the very numbers it has in the block.
 template <class Real> LibraryBlock<Real> alone(const LibraryBlock<Real>& block, int k) {
-  LibraryBlock<Real> one(1);
+  LibraryBlock<Real> one(1, block.shear);
   for (std::size_t c = 0; c < one.strain.size(); ++c) {
     one.strain[c] = block.strain[c * block.points + k];
     one.stress_old[c] = block.stress_old[c * block.points + k];
@@ -81,7 +81,7 @@ template <class Real> LibraryBlock<Real> alone(const LibraryBlock<Real>& block, 
 /// Bad input is refused: status -2, no stress, and the state as it was.
 template <class Real> std::string refusal(const LibraryBlock<Real>& block, int k) {
   if (block.status(k) != -2) return "bad input not refused";
-  for (int c = 0; c < 6; ++c)
+  for (int c = 0; c < block.components(); ++c)
     if (!std::isnan(block.stress_new[c * block.points + k])) return "bad input gave stress";
   for (const int s : {0, 1, 2})
     if (std::memcmp(&block.state_new[s * block.points + k], &block.state_old[s * block.points + k],
@@ -112,7 +112,7 @@ template <class Real> RandomReport check(const RandomOptions& options, std::int6
   const auto props = properties(sands[input.sand]);
   const auto m = material_of(props);
   const std::vector<Real> numbers(props.begin(), props.end());
-  LibraryBlock<Real> block(random_block);
+  LibraryBlock<Real> block(random_block, input.shear);
   for (int k = 0; k < random_block; ++k) {
     auto& r = input.points[k];
     block.put(k, r.point, r.strain);

@@ -48,11 +48,11 @@ struct RandomPoint {
 
 inline constexpr int random_block = 128;
 
-/// Block number `index`: its sand, and 128 points. Void ratio 0.2 to 2; mean stress 0 to 1 MPa, evenly and by its
-/// logarithm; strain sqrt(d eps : d eps) 1e-8 to 1e-1 in all directions, some of them without change of volume or
-/// of shape.
+/// Block number `index`: its sand, its components of shear (3, in every eighth block 1), and 128 points. Void ratio
+/// 0.2 to 2; mean stress 0 to 1 MPa, evenly and by its logarithm; strain sqrt(d eps : d eps) 1e-8 to 1e-1 in all
+/// directions, some of them without change of volume or of shape.
 struct RandomBlock {
-  int sand;
+  int sand, shear;
   std::vector<RandomPoint> points;
 };
 RandomBlock random_points(std::uint64_t seed, std::int64_t index);

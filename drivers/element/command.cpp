@@ -87,6 +87,12 @@ std::string envelope_file(const ElementOptions& options) {
   return path.parent_path() / (path.stem().string() + "_envelope.csv");
 }
 
+std::string failed_point_file(const ElementOptions& options) {
+  if (!options.failed_point.empty()) return options.failed_point;
+  const fs::path folder = to_standard(options.output) ? "" : fs::path(options.output).parent_path();
+  return (folder / "failed_point.toml").string();
+}
+
 void run_case(const ElementCase& element, const ElementOptions& options) {
   if (!options.resolved.empty()) OutputFile(options.resolved).write(element.resolved);
   std::unique_ptr<OutputFile> probes;
@@ -103,7 +109,7 @@ void run_case(const ElementCase& element, const ElementOptions& options) {
         append_row(line, row, columns);
         table.write(line);
       },
-      [&](const EnvelopeRow& row) { probes->write(envelope_line(row)); });
+      [&](const EnvelopeRow& row) { probes->write(envelope_line(row)); }, failed_point_file(options));
 }
 
 void run_case(FailedCall failed, const ElementOptions& options) {
@@ -125,7 +131,7 @@ int said(const std::exception& error) {
 std::vector<ElementOptions> jobs_of(const ElementBatch& batch) {
   const bool several = batch.path_files.size() > 1, folder = several || fs::is_directory(batch.output);
   if (!folder)
-    return {{batch.path_files.front(), batch.output, batch.resolved, batch.envelope, batch.settings}};
+    return {{batch.path_files.front(), batch.output, batch.resolved, batch.envelope, batch.settings, {}}};
   if (to_standard(batch.output)) throw std::runtime_error("several paths need a folder: give -o FOLDER");
   if (several && (!batch.resolved.empty() || !batch.envelope.empty()))
     throw std::runtime_error("--resolved and --envelope are for a single path");
@@ -139,8 +145,9 @@ std::vector<ElementOptions> jobs_of(const ElementBatch& batch) {
     const auto name = fs::path(file).stem().string();
     if (!names.insert(name).second)
       throw std::runtime_error(fmt::format("{}: a second path named '{}'", file, name));
-    const auto output = (fs::path(batch.output) / (name + ".csv")).string();
-    jobs.push_back({file, output, batch.resolved, batch.envelope, batch.settings});
+    const auto output = (fs::path(batch.output) / name).string();
+    jobs.push_back({file, output + ".csv", batch.resolved, batch.envelope, batch.settings,
+                    output + "_failed_point.toml"});
   }
   return jobs;
 }

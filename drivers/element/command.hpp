@@ -7,10 +7,11 @@ namespace drivers {
 
 struct ElementOptions {
   std::string path_file;
-  std::string output;   ///< CSV file; empty or "-": standard output
-  std::string resolved; ///< file for the path with every key written out; empty: none
-  std::string envelope; ///< CSV file of envelope stages; empty: `output` with _envelope at its end
-  Words settings{};     ///< KEY=VALUE, which replace keys of the path file
+  std::string output;         ///< CSV file; empty or "-": standard output
+  std::string resolved;       ///< file for the path with every key written out; empty: none
+  std::string envelope;       ///< CSV file of envelope stages; empty: `output` with _envelope at its end
+  Words settings{};           ///< KEY=VALUE, which replace keys of the path file
+  std::string failed_point{}; ///< file for a call that failed; empty: failed_point.toml beside `output`
 };
 
 /// Runs one path: 0, or 1 after one line on standard error.

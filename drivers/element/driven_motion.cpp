@@ -46,7 +46,7 @@ StepReport follow(MaterialCaller& material, const DrivenMotion& motion, const ho
   }
   auto answer = material.follow(point, *way, (to - from) * duration);
   StepReport report;
-  report.finite = answer.stress.allFinite();
+  report.finite = is_finite(answer);
   report.refused = material.refused(answer);
   report.converged = report.finite && !report.refused;
   if (report.converged) point = std::move(answer);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/element/envelope.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -14,8 +15,26 @@ Envelope read_envelope(const TomlTable& table) {
   return e;
 }
 
+namespace {
+
+double degrees(double angle) {
+  return angle * 180 / M_PI;
+}
+
+/// Goes on from all points by one increment each.
+void respond(MaterialCaller& material, const std::vector<Vector6>& increments, double dt,
+             const std::vector<double>& angles, const std::string& failed_point,
+             std::vector<PointState>& points) {
+  points = material.respond(points, increments, dt);
+  if (std::all_of(points.begin(), points.end(), [&](const auto& p) { return material.usable(p); })) return;
+  throw std::runtime_error(fmt::format("direction {:.6g} degrees: {}", degrees(angles[material.failed_point]),
+                                       material.evidence(failed_point)));
+}
+
+} // namespace
+
 void probe(MaterialCaller& material, const PointState& state, const Envelope& envelope, double duration,
-           int stage, const EnvelopeSink& sink) {
+           int stage, const EnvelopeSink& sink, const std::string& failed_point) {
   const std::size_t n = std::size_t(envelope.directions);
   std::vector<double> angles(n);
   std::vector<Vector6> increments(n);
@@ -26,15 +45,10 @@ void probe(MaterialCaller& material, const PointState& state, const Envelope& en
   }
   std::vector<PointState> points(n, state);
   for (long step = 0; step < envelope.increments; ++step)
-    points = material.respond(points, increments, duration / double(envelope.increments));
-  for (std::size_t i = 0; i < n; ++i) {
-    const double angle = angles[i] * 180 / M_PI;
-    if (material.refused(points[i]) || !points[i].stress.allFinite())
-      throw std::runtime_error(fmt::format(
-          "direction {:.6g} degrees: the material {}", angle,
-          material.refused(points[i]) ? "reports a failed update" : "returned a stress that is not finite"));
-    sink({stage, angle, points[i].strain - state.strain, points[i].stress, points[i].stress - state.stress});
-  }
+    respond(material, increments, duration / double(envelope.increments), angles, failed_point, points);
+  for (std::size_t i = 0; i < n; ++i)
+    sink({stage, degrees(angles[i]), points[i].strain - state.strain, points[i].stress,
+          points[i].stress - state.stress});
 }
 
 } // namespace drivers

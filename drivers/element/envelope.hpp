@@ -26,8 +26,8 @@ struct EnvelopeRow {
 using EnvelopeSink = std::function<void(const EnvelopeRow&)>;
 
 /// Probes all directions from `state`, which stays as it is; `duration` in s. Throws std::runtime_error naming
-/// the direction if the material refuses one, or returns a stress that is not finite.
+/// the direction, with all that is known, if an answer is not usable; `failed_point` as in StageSetting.
 void probe(MaterialCaller& material, const PointState& state, const Envelope& envelope, double duration,
-           int stage, const EnvelopeSink& sink);
+           int stage, const EnvelopeSink& sink, const std::string& failed_point = {});
 
 } // namespace drivers

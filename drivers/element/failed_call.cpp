@@ -13,6 +13,7 @@ FailedCall read_failed_call(const TomlTable& document) {
   host::PointCall call{{table.number("stepTime", not_negative), table.number("totalTime", not_negative),
                         table.number("dt", positive)},
                        host::VumatBlock(material.material, 1, int(shear))};
+  call.block.elements[0] = int(table.integer("element", {1, 2147483647}, 1));
   host::each_array(call.block, [&](const char* name, host::GuardedArray& a, bool input) {
     if (!input || &a == &call.block.constants || a.size() == 0) return;
     const auto values = table.numbers(name, a.size());

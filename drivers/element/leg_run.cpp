@@ -8,15 +8,15 @@
 namespace drivers {
 namespace {
 
-std::string reason(const Stage& stage, const StepReport& report) {
-  if (report.refused) return "the material reports a failed update";
-  if (!report.finite) return "the material returned a stress that is not finite";
+std::string reason(const StageSetting& setting, const Stage& stage, const StepReport& report) {
+  if (report.refused || !report.finite) return setting.material.evidence(setting.failed_point);
   return fmt::format("condition {} of 6 misses by {:.3g} {}", report.restriction + 1, report.residual,
                      stage.conditions[report.restriction].unit());
 }
 
-std::string why(const Stage& stage, const StepReport& report) {
-  return fmt::format("{}; {} cuts and {} iterations", reason(stage, report), report.cuts, report.iterations);
+std::string why(const StageSetting& setting, const Stage& stage, const StepReport& report) {
+  return fmt::format("{}; {} cuts and {} iterations", reason(setting, stage, report), report.cuts,
+                     report.iterations);
 }
 
 } // namespace
@@ -110,7 +110,7 @@ LegEnd LegRun::run(const Leg& leg, bool fresh) {
     ++row.step;
     if (const auto report = advanced(leg, increment.from, to, row, stiffness); !report.converged) {
       setting.sink(row);
-      fail(leg, why(stage, report));
+      fail(leg, why(setting, stage, report));
     }
     if (!watched) continue;
     for (const auto* bounds : {&leg.limits, &stops})

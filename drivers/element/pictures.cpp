@@ -33,23 +33,28 @@ Words critical_numbers(const std::optional<CriticalState>& critical) {
 
 } // namespace
 
-void draw_pictures(const std::vector<Picture>& pictures, const std::string& folder) {
-  if (pictures.empty()) return;
-  const auto script = host::beside_program("element_figures.py");
+void run_script(const std::string& name, const Words& arguments, const std::string& folder) {
+  const auto script = host::beside_program(name);
   if (!std::filesystem::exists(script))
     throw std::runtime_error(fmt::format("{}: no such script: figures cannot be drawn", script));
   // Debian's Python is the one that has Debian's matplotlib.
-  const std::string python = std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-  Words arguments{python, script, "-o", folder};
+  Words all{std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3", script};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  if (const int status = run_program(all); status != 0)
+    throw std::runtime_error(
+        fmt::format("{}: figures were not drawn: {} ended with status {}", folder, script, status));
+}
+
+void draw_pictures(const std::vector<Picture>& pictures, const std::string& folder) {
+  if (pictures.empty()) return;
+  Words arguments{"-o", folder};
   for (const auto& picture : pictures) {
     arguments.emplace_back("--critical");
     for (const auto& number : critical_numbers(picture.critical)) arguments.push_back(number);
   }
   arguments.emplace_back("--");
   for (const auto& picture : pictures) arguments.push_back(picture.table);
-  if (const int status = run_program(arguments); status != 0)
-    throw std::runtime_error(
-        fmt::format("{}: figures were not drawn: {} ended with status {}", folder, script, status));
+  run_script("element_figures.py", arguments, folder);
 }
 
 } // namespace drivers

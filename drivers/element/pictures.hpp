@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of element tests, drawn by drivers/figures/element_figures.py, which the build puts beside the program.
+// Pictures, drawn by scripts that the build puts beside the program: of element tests by
+// drivers/figures/element_figures.py.
 #pragma once
 #include "drivers/element/critical_state.hpp"
 
 namespace drivers {
+
+/// Runs a script that draws into `folder`. Throws std::runtime_error if it is missing or fails; what it lacks it says
+/// itself, on standard error.
+void run_script(const std::string& name, const Words& arguments, const std::string& folder);
 
 /// A table to be drawn, with the critical state whose lines accompany it.
 struct Picture {

@@ -16,6 +16,7 @@ struct StageSetting {
   std::optional<double> initial_void_ratio;
   const NewtonOptions& newton;
   const RowSink& sink;
+  const std::string& failed_point; ///< file for the call that failed, to be replayed; empty: none
 };
 
 /// Takes `row` through the increments of a stage that is no envelope. Throws std::runtime_error naming stage,

@@ -79,8 +79,7 @@ std::optional<long> as_integer(const std::string& item) {
 
 bool is_label(const std::string& item) {
   return !item.empty() && item.size() <= 80 && std::isalpha(static_cast<unsigned char>(item[0])) &&
-         std::ranges::all_of(
-             item, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; });
+         std::ranges::all_of(item, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
 const Parameter* Block::parameter(std::string_view name) const {

@@ -33,7 +33,7 @@ std::vector<Block> read_blocks(const std::string& text, Findings& findings);
 std::string capitals(std::string_view text);
 std::optional<double> as_real(const std::string& item);
 std::optional<long> as_integer(const std::string& item);
-/// A letter, then letters, digits, `_`, `-` or `.`; at most 80.
+/// A letter, then letters, digits, `_` or `-`; at most 80. A dot would part an instance from its set.
 bool is_label(const std::string& item);
 
 } // namespace deck

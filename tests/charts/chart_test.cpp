@@ -58,10 +58,15 @@ std::vector<double> numbers(const std::string& line) {
   return out;
 }
 
-TEST(Chart, ElementWritesItsTable) {
-  const auto outcome =
-      chart("element --increments 1e-5 --pressures 1000 --stages 0.5 --repetitions 1 -o results");
+const std::string small_element =
+    "element --increments 1e-5 --pressures 1000 --stages 0.5 --repetitions 1 -o results";
+
+TEST(Chart, ElementWritesItsTableAndDrawsIt) {
+  fs::remove_all(folder() / "results");
+  const bool draws = std::system("/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") == 0;
+  const auto outcome = chart(small_element + (draws ? "" : " --no-figures"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(fs::exists(folder() / "results/integrators.png"), draws);
   const auto table = lines(folder() / "results/element.csv");
   ASSERT_GT(table.size(), 10u);
   EXPECT_EQ(table.front(), charts::element_header);
@@ -78,6 +83,19 @@ TEST(Chart, ElementWritesItsTable) {
   EXPECT_LT(error.at("modified Euler,tolerance=1e-06"), 1e-5);
   const auto best = charts::all_methods();
   EXPECT_EQ(charts::method_named(best, "product, blocks", "parts=1").yield_tolerance, 1e-6);
+}
+
+TEST(Chart, ElementSaysWhatDrawingLacks) {
+  fs::remove_all(folder() / "results");
+  std::ofstream(folder() / "matplotlib.py") << "raise ImportError('none here')\n";
+  setenv("PYTHONPATH", folder().c_str(), 1);
+  const auto outcome = chart(small_element);
+  unsetenv("PYTHONPATH");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.err.starts_with("figures.py: needs numpy and matplotlib (none here): apt-get install "))
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("simsand chart: results: figures were not drawn"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder() / "results/element.csv"));
 }
 
 TEST(Chart, TheProductIsOneUpdateInWhateverWayItIsCalled) {

@@ -77,6 +77,7 @@ TEST_F(AbaqusChecker, FindsWrongKeywordsAndParameters) {
       {"missing parameter", "*SOLID SECTION", 0, ", MATERIAL=SIMSAND", "", "no parameter MATERIAL"},
       {"flag with a value", "*DYNAMIC", 0, "EXPLICIT", "EXPLICIT=YES", "takes no value"},
       {"unknown element", "*ELEMENT, TYPE=PC3D", 0, "PC3D", "PC2D", "TYPE cannot be"},
+      {"name with a dot", "*MATERIAL", 0, "SIMSAND", "SIM.SAND", "NAME"},
       {"unknown output", "S, SDV", 0, "SDV", "SVD", "unknown variable"},
       {"load before the step", "*STEP", 0, "*STEP, NAME=COLLAPSE, NLGEOM=YES", "** no step",
        "outside of a step", "*DLOAD"},

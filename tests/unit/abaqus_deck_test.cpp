@@ -44,7 +44,7 @@ TEST(AbaqusDeck, ManyStateVariablesTakeSeveralLines) {
   for (int i = 1; i <= 16; ++i) states += fmt::format("{}{}.5", i > 1 ? ", " : "", i);
   std::ofstream(path) << scene_text(
       c, fmt::format(
-             "name = \"clay\"\nlibrary = \"{}/libsimsand_vumat.so\"\nproperties = [1.0, 2.0, 3.0]\n"
+             "name = \"clay-1\"\nlibrary = \"{}/libsimsand_vumat.so\"\nproperties = [1.0, 2.0, 3.0]\n"
              "state_variables = 16\ninitial_state = [{}]\ndensity = 1600.0\n[initial_stress]\nK0 = 0.5\n",
              SIMSAND_BINARY_DIR, states));
   const auto scene = drivers::read_scene(path.string());
@@ -58,7 +58,7 @@ TEST(AbaqusDeck, ManyStateVariablesTakeSeveralLines) {
       text.find(
           "LAYER_1, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5\n8.5, 9.5, 10.5, 11.5, 12.5, 13.5, 14.5, 15.5\n16.5\n"),
       text.npos);
-  EXPECT_NE(text.find("*MATERIAL, NAME=CLAY\n"), text.npos);
+  EXPECT_NE(text.find("*MATERIAL, NAME=CLAY-1\n"), text.npos);
 }
 
 TEST(AbaqusDeck, ParticlesTogetherAreTheColumnExactly) {
@@ -95,8 +95,11 @@ TEST(AbaqusDeck, RefusesWhatAbaqusWouldRefuse) {
     return "";
   };
   const auto model = drivers::make_abaqus_model(scene, scene.spacing);
-  scene.material.name = "my sand";
-  EXPECT_NE(error_of([&] { drivers::abaqus_deck(scene, model); }).find("'my sand'"), std::string::npos);
+  for (const auto* name : {"my sand", "sand.1", "1-sand", "-sand", ""}) {
+    scene.material.name = name;
+    const auto error = error_of([&] { drivers::abaqus_deck(scene, model); });
+    EXPECT_NE(error.find(fmt::format("'{}': ABAQUS takes a letter", name)), std::string::npos) << error;
+  }
   EXPECT_EQ(error_of([&] { drivers::make_abaqus_model(scene, 1); }),
             "scene without particles: a column of 0.05 m x 0.05 m holds none at a spacing of 1 m");
   EXPECT_EQ(error_of([&] {

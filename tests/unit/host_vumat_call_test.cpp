@@ -20,13 +20,15 @@ struct Arguments {
       *energy_old, *temp_new, *gradient_new, *stress_new, *state_new, *energy_new, *inelastic_new;
   std::string name;
   std::size_t name_length;
+  int* info;
+  char* name_itself;
 };
 
 /// What the subroutine of the running test does.
 std::function<void(const Arguments&)> action;
 
 void subroutine(const int* nblock, const int*, const int* nshr, const int* nstatev, const int*, const int*,
-                const int*, const double*, const double* total, const double* dt, const char* name,
+                const int* info, const double*, const double* total, const double* dt, const char* name,
                 const double*, const double*, const double* props, const double* density,
                 const double* strain, const double* spin, const double*, const double* stretch,
                 const double* gradient, const double*, const double* stress, const double* state,
@@ -35,11 +37,29 @@ void subroutine(const int* nblock, const int*, const int* nshr, const int* nstat
                 double* energy_new, double* inelastic_new, std::size_t length) {
   const auto open = [](const double* p) { return const_cast<double*>(p); };
   std::copy_n(stress, *nblock * (3 + *nshr), stress_new);
-  action({*nblock,       *nstatev,     *total,       open(dt),       open(props),
-          open(density), open(strain), open(spin),   open(stretch),  open(gradient),
-          open(stress),  open(state),  open(energy), open(temp_new), open(gradient_new),
-          stress_new,    state_new,    energy_new,   inelastic_new,  {name, length},
-          length});
+  action({*nblock,
+          *nstatev,
+          *total,
+          open(dt),
+          open(props),
+          open(density),
+          open(strain),
+          open(spin),
+          open(stretch),
+          open(gradient),
+          open(stress),
+          open(state),
+          open(energy),
+          open(temp_new),
+          open(gradient_new),
+          stress_new,
+          state_new,
+          energy_new,
+          inelastic_new,
+          {name, length},
+          length,
+          const_cast<int*>(info),
+          const_cast<char*>(name)});
 }
 
 Material material() {
@@ -79,6 +99,10 @@ TEST(VumatCall, FindsWhatIsWrittenBeyondAnArray) {
     EXPECT_EQ(error([](const Arguments& a) { a.props[3] = 0; }), beyond("props"));
     EXPECT_EQ(error([](const Arguments& a) { a.dt[2 * a.nblock + 1] = 0; }), beyond("dt"));
     EXPECT_EQ(error([](const Arguments& a) { a.state_new[3 * a.nblock - 1] = 0; }), beyond("stateNew"));
+    EXPECT_EQ(error([](const Arguments& a) { a.info[8 + a.nblock] = 0; }), beyond("jInfoArray"));
+    EXPECT_EQ(error([](const Arguments& a) { a.info[-1] = 0; }), before("jInfoArray"));
+    EXPECT_EQ(error([](const Arguments& a) { a.name_itself[80] = ' '; }), beyond("cmname"));
+    EXPECT_EQ(error([](const Arguments& a) { a.name_itself[-1] = ' '; }), before("cmname"));
     // As if there were six components: nothing of this process is damaged, and it is told.
     EXPECT_EQ(error([](const Arguments& a) { std::fill_n(a.stress_new, 6 * a.nblock, 0.0); }),
               beyond("stressNew"));
@@ -137,6 +161,23 @@ TEST(VumatCall, GivesCopiesAndPresets) {
                 material(), 5, 3),
             "");
   EXPECT_EQ(call, 3);
+}
+
+TEST(VumatCall, GivesElementNumbers) {
+  auto m = material();
+  VumatBlock block(m, 3, 1);
+  std::vector<int> seen;
+  action = [&](const Arguments& a) {
+    seen.assign(a.info, a.info + 8 + a.nblock);
+    std::fill_n(a.info, 8 + a.nblock, -1); // without effect on the next call
+    std::fill_n(a.name_itself, 80, 'x');
+  };
+  call_vumat(m, {0.5, 0.75, 1e-3}, block);
+  EXPECT_EQ(seen, (std::vector{0, 1, 1, 1, 0, 9, 0, 0, 1, 2, 3}));
+  block.elements = {12, 7, 40};
+  call_vumat(m, {0.5, 0.75, 1e-3}, block);
+  EXPECT_EQ(seen, (std::vector{0, 1, 1, 1, 0, 9, 0, 0, 12, 7, 40}));
+  EXPECT_EQ(point_call(m, {0.5, 0.75, 1e-3}, block, 1).block.elements, std::vector{7});
 }
 
 TEST(VumatCall, TellsWhyAnAnswerCannotBeUsed) {

@@ -234,8 +234,15 @@ TEST(Output, goes_on_where_it_is_told) {
   EXPECT_EQ(read(path, "/snapshots/0001/position"), (Vector{3, 3, 4, 4}));
 
   std::filesystem::create_directories(host::parts_folder(path));
-  EXPECT_TRUE(one_line_with(error_of([&] { ResultFile(path, header(2), two_columns, progress); }),
-                            "a.parts/particles.h5: missing or not readable"));
+  ResultFile without(path, header(2), two_columns, progress);
+  EXPECT_EQ(without.left_out(), std::vector{host::parts_folder(path) / "0000.h5"});
+  EXPECT_EQ(without.progress().lost, std::vector{0});
+  EXPECT_EQ(without.progress().xdmf, "");
+  without.particles({});
+  without.snapshot(2, other);
+  without.close();
+  EXPECT_EQ(read(path, "/snapshots/0001/position"), (Vector{3, 3, 4, 4}));
+  EXPECT_FALSE(H5::H5File(path.string(), H5F_ACC_RDONLY).nameExists("snapshots/0000"));
 }
 
 TEST(Output, says_in_one_line_what_is_wrong) {

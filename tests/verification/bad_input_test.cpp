@@ -101,6 +101,16 @@ Outcome run(const std::string& text, const std::string& options = "") {
   return simsand("run --quiet --threads 1 " + options + " scene.toml");
 }
 
+TEST(BadInput, AForeignMaterialInAFileHasNoPressureAtRest) {
+  const auto whole = scene();
+  const auto start = whole.find("library"), end = whole.find("[initial_stress]");
+  std::ofstream(folder() / "material.toml") << whole.substr(start, end - start);
+  const auto text = whole.substr(0, start) + "file = \"material.toml\"\n" + whole.substr(end);
+  EXPECT_EQ(run(text).status, 0);
+  expect_parts(run(with(text, "[initial_stress]\nK0 = 0.5\n", "")),
+               {"key 'initial_stress.K0': expected a number from 0 to 10, found no such key"});
+}
+
 TEST(BadInput, TheSceneItselfRuns) {
   const auto outcome = run(scene());
   EXPECT_EQ(outcome.status, 0);

@@ -247,6 +247,7 @@ template <class Geometry> void expect_same_for_any_threads(const tests::ColumnCa
 
 TEST(Threads, DoNotChangeABit) {
   expect_same_for_any_threads<host::Axisymmetric>({.spacing = 0.0025}, 0.05);
+  expect_same_for_any_threads<host::PlaneStrain>({.geometry = "plane_strain", .spacing = 0.0025}, 0.05);
   expect_same_for_any_threads<host::ThreeDimensional>({.geometry = solid("quarter"), .spacing = 0.00625},
                                                       0.05);
 }
@@ -259,6 +260,9 @@ TEST(StoredScene, GivesTheSameNumbersAgain) {
   const auto second = drivers::run_scene(again, {.quiet = true});
   for (const std::string quantity : {"final_height", "runout", "work_stress", "steps"})
     EXPECT_EQ(value_of(first, quantity), value_of(second, quantity)) << quantity;
+  EXPECT_LT(value_of(second, "time_processor"),
+            value_of(second, "threads") * value_of(second, "wall_clock") + 0.1)
+      << "without the first run's";
 }
 
 } // namespace

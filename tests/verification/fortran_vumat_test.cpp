@@ -158,13 +158,14 @@ TEST(FortranAudit, FindsNothingInTheElementDriver) {
 }
 
 TEST(FortranAudit, FindsNothingInAScene) {
-  for (const auto* geometry : {"plane_strain", "axisymmetric"})
+  for (const auto* geometry : {"plane_strain", "axisymmetric", "three_dimensional"})
     for (const int threads : {1, 3}) {
-      const auto outcome = run_scene(audit, geometry, threads);
+      const bool solid = geometry == std::string("three_dimensional");
+      const auto outcome = run_scene(audit, geometry, threads, solid ? 6 : 10);
       EXPECT_EQ(outcome.status, 0);
       EXPECT_EQ(outcome.err, "");
       const auto codes = last("state_1"), increments = last("state_2");
-      ASSERT_EQ(codes.size(), 100);
+      ASSERT_GE(codes.size(), 100);
       for (const double code : codes) EXPECT_EQ(code, 0) << "codes of audit.f";
       for (const double count : increments) EXPECT_GT(count, 20);
     }

@@ -50,6 +50,8 @@ TEST(Misbehaving, WritesBeyondArrays) {
   expect_stopped_everywhere(2, {"wrote beyond the end of stressNew"});
   expect_stopped_everywhere(3, {"wrote before the start of stressNew"});
   expect_stopped_everywhere(4, {"wrote beyond the end of strainInc"});
+  expect_stopped_everywhere(21, {"wrote before the start of jInfoArray"});
+  expect_stopped_everywhere(22, {"wrote beyond the end of jInfoArray"});
 }
 
 TEST(Misbehaving, WritesToInputs) {
@@ -80,7 +82,18 @@ TEST(Misbehaving, LeavesStressUnwritten) {
   const auto outcome = run_scene(breaking(9));
   expect_stopped(outcome,
                  {"material misbehaves did not write component 1 of stressNew: particle ", "at time 0.005"});
-  expect_stopped(run_path(breaking(9, 0.35), shear), {"not finite"});
+  expect_stopped(run_path(breaking(9, 0.35), shear), {"did not write component 1 of stressNew: at time"});
+}
+
+TEST(Misbehaving, IsToldItsElements) {
+  for (const auto* kinematics : {"green-naghdi", "jaumann"}) {
+    const auto extra = fmt::format("kinematics = \"{}\"", kinematics);
+    ASSERT_EQ(run_scene(breaking(23, 0.0, extra), "plane_strain", 2).status, 0);
+    auto numbers = last("state_1");
+    std::sort(numbers.begin(), numbers.end());
+    ASSERT_EQ(numbers.size(), 100);
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(numbers[i], i + 1);
+  }
 }
 
 TEST(Misbehaving, ReturnsNaN) {
@@ -108,6 +121,67 @@ TEST(Misbehaving, ReturnsNaN) {
   // In the data check, before anything else.
   expect_stopped(run_scene(breaking(18, -1)),
                  {"not finite", "from words beyond an array", "at time 0 s", "failed_point.toml"});
+}
+
+TEST(Misbehaving, ReplaysWithInputsThatItMayWrite) {
+  expect_stopped(run_scene(breaking(24, 0.005, "may_write_inputs = true\nserial = true")),
+                 {"returned a number that is not finite, component 1 of stressNew: particle "});
+  const auto file = content(folder() / "results/failed_point.toml");
+  EXPECT_NE(file.find("may_write_inputs = true\n"), std::string::npos);
+  EXPECT_NE(file.find("serial = true\n"), std::string::npos);
+  expect_stopped(simsand("element results/failed_point.toml"),
+                 {"returned a number that is not finite, component 1 of stressNew: at time 0.005"});
+}
+
+/// The element driver tells as much as a run, and leaves the call to be made again.
+void expect_evidence(int kind, const std::string& stages, const std::string& fault) {
+  const auto found = "material misbehaves " + fault + ": at time 0."; // from 0.35 on, with or without cuts
+  const auto file = folder() / "failed_point.toml";
+  std::filesystem::remove(file);
+  expect_stopped(run_path(breaking(kind, 0.35), stages),
+                 {"simsand element: path.toml:", "stage 1 '1', step 4 of 10: " + found, "stress before (",
+                  "strain increment (", "(replay: simsand element failed_point.toml); "});
+  const auto again = simsand("element failed_point.toml");
+  expect_stopped(again, {"failed_point.toml: " + found});
+  EXPECT_NE(again.out.find("nan"), std::string::npos);
+}
+
+TEST(Misbehaving, ReturnsNaNToTheElementDriver) {
+  const std::string nan = "returned a number that is not finite, ",
+                    motion = "[[stage]]\ncontrol = \"deformation-gradient\"\n"
+                             "gradient = [1, 0.1, 0, 0, 1, 0, 0, 0, 1]\nincrements = 10\n";
+  for (const auto& stages : {shear, motion}) {
+    expect_evidence(11, stages, nan + "component 1 of stressNew");
+    expect_evidence(19, stages, nan + "variable 1 of stateNew");
+    expect_evidence(20, stages, nan + "enerInelasNew");
+  }
+}
+
+TEST(Misbehaving, LeavesAReproducerBesideEachTable) {
+  std::filesystem::remove_all(folder() / "tables");
+  const auto stages = shear + "[[stage]]\ncontrol = \"envelope\"\nstrain_norm = 1e-4\nincrements = 3\n";
+  for (const auto& [name, time] : {std::pair{"early", 0.35}, {"late", 1.1}, {"never", 100.0}}) {
+    std::ofstream(folder() / (std::string(name) + ".toml"))
+        << breaking(19, time) << "[initial]\nmean_stress = 0.0\n"
+        << stages;
+  }
+  const auto outcome = simsand("element early.toml late.toml never.toml -t 2 -o tables");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("(replay: simsand element tables/early_failed_point.toml)"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("stage 2 '2', direction 355 degrees: material misbehaves returned"),
+            std::string::npos)
+      << outcome.err;
+  expect_stopped(simsand("element tables/late_failed_point.toml"), {"variable 1 of stateNew"});
+  EXPECT_FALSE(std::filesystem::exists(folder() / "tables/never_failed_point.toml"));
+}
+
+TEST(Misbehaving, IsLoadedByTheChartsToo) {
+  // Its xplb_exit is found; the chart then refuses a material that is not SIMSAND.
+  run_scene(breaking(0));
+  expect_stopped(simsand("chart increments scene.toml -o chart"),
+                 {"the increments of SIMSAND alone can be charted"});
 }
 
 TEST(Misbehaving, AReproducerWithUnknownOrMissingKeysIsRefused) {

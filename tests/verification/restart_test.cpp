@@ -280,6 +280,21 @@ TEST(Restart, ADamagedCheckpointIsNoticedAndTheOneBeforeIsTaken) {
   EXPECT_NE(program.content("err").find("going on from the one before"), std::string::npos);
 
   interrupt(program, SIGTERM);
+  fs::resize_file(newest, 1000);
+  // The next checkpoint comes late, so that the kill falls before the second one.
+  auto late = scene();
+  late.replace(late.find("checkpoint_interval = 0.02"), 26, "checkpoint_interval = 0.06");
+  program.write("scene.toml", late);
+  const auto child = program.start("run -q -t 1 --resume scene.toml -o cut");
+  const auto whole_again = [&] { return fs::exists(newest) && fs::file_size(newest) > 1000; };
+  for (int wait = 0; wait < 5000 && !whole_again(); ++wait) usleep(2000);
+  kill(child, SIGKILL);
+  tests::wait_for(child);
+  ASSERT_TRUE(whole_again());
+  EXPECT_EQ(program.run("info cut/checkpoint_previous.h5").status, 0) << "a damaged one took its place";
+  program.write("scene.toml", scene());
+
+  interrupt(program, SIGTERM);
   for (const auto& file : {newest, previous}) fs::resize_file(file, 1000);
   const auto lost = program.run("run -q --resume cut");
   EXPECT_EQ(lost.status, 1);
@@ -310,8 +325,14 @@ TEST(Restart, RefusesWhatItCannotGoOnWith) {
     fs::copy(program.folder / "cut", program.folder / name, fs::copy_options::recursive);
     return program.folder / name;
   };
-  fs::remove(copy("no_part") / "result.parts/0000.h5");
-  refuses("no_part", "result.parts/0000.h5: missing or not readable");
+  const auto old = copy("old");
+  for (const auto* name : {"checkpoint.h5", "checkpoint_previous.h5"}) {
+    H5::H5File file((old / name).string(), H5F_ACC_RDWR);
+    const int layout = 2;
+    file.openAttribute("checkpoint_version").write(H5::PredType::NATIVE_INT, &layout);
+  }
+  refuses("old", "a checkpoint of layout 2, this program reads 3");
+  EXPECT_TRUE(fs::exists(old / "checkpoint.h5")) << "for the program that wrote it";
   program.write("cut/scene.toml", changed);
   refuses("cut", "cut/scene.toml: key 'floor.friction'");
   fs::remove(program.folder / "cut/scene.toml");
@@ -327,6 +348,117 @@ TEST(Restart, RefusesWhatItCannotGoOnWith) {
       << "the scene that it began with";
   expect_same(program.folder / "cut/result.h5", whole());
 }
+
+TEST(Restart, ALostSnapshotIsAllThatIsLost) {
+  const Program program("restart_snapshot");
+  interrupt(program, SIGTERM);
+  const auto copy = [&](const std::string& name) {
+    fs::copy(program.folder / "cut", program.folder / name, fs::copy_options::recursive);
+    return program.folder / name / "result.parts";
+  };
+  fs::resize_file(copy("short") / "0000.h5", 1000);
+  fs::remove(copy("gone") / "0000.h5");
+  fs::remove(copy("constants") / "particles.h5");
+  auto rest = whole();
+  std::erase_if(rest, [](const auto& entry) { return entry.first.starts_with("/snapshots/0000/"); });
+  ASSERT_LT(rest.size(), whole().size());
+  for (const std::string folder : {"short", "gone"}) {
+    // A second stop: what is lost stays known.
+    const auto child = program.start("run -q -t 1 --resume " + folder);
+    const auto said = [&] {
+      return program.content("err").find(folder + "/result.parts/0000.h5: missing or not readable; the "
+                                                  "result goes on without this snapshot\n") !=
+             std::string::npos;
+    };
+    for (int wait = 0; wait < 2000 && !said(); ++wait) usleep(5000);
+    kill(child, SIGTERM);
+    tests::wait_for(child);
+    EXPECT_TRUE(said()) << program.content("err");
+    const auto outcome = program.run("run -q -t 1 --resume " + folder);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "") << "said once";
+    expect_same(program.folder / folder / "result.h5", rest);
+    const auto xdmf = program.content(folder + "/result.xdmf");
+    EXPECT_EQ(xdmf.find("/snapshots/0000/"), std::string::npos);
+    EXPECT_NE(xdmf.find("/snapshots/0001/"), std::string::npos);
+  }
+  EXPECT_EQ(program.run("run -q -t 1 --resume constants").status, 0) << program.content("err");
+  expect_same(program.folder / "constants/result.h5", whole());
+}
+
+TEST(Restart, WithoutAWholeSceneFileTheOneInTheCheckpointIsTaken) {
+  const Program program("restart_scene");
+  interrupt(program, SIGTERM);
+  const auto file = program.folder / "cut/scene.toml";
+  const auto text = program.content("cut/scene.toml");
+  fs::resize_file(file, fs::file_size(file) / 2);
+  const auto outcome = program.run("run -q -t 1 --resume cut");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("cut/scene.toml:")) << outcome.err;
+  EXPECT_NE(outcome.err.find("; going on with the scene in the checkpoint\n"), std::string::npos);
+  EXPECT_EQ(program.content("cut/scene.toml"), text) << "written again";
+  expect_same(program.folder / "cut/result.h5", whole());
+}
+
+double number_in(const fs::path& file, const std::string& name) {
+  double value = 0;
+  H5::H5File(file.string(), H5F_ACC_RDONLY).openDataSet(name).read(&value, H5::PredType::NATIVE_DOUBLE);
+  return value;
+}
+
+TEST(Restart, TheTimeOfProcessorsIsThatOfAllParts) {
+  const Program program("restart_processor");
+  interrupt(program, SIGTERM);
+  const double before = number_in(program.folder / "cut/checkpoint.h5", "run/processor_seconds");
+  EXPECT_GT(before, 0);
+  ASSERT_EQ(program.run("run -q -t 1 --resume cut").status, 0);
+  const auto result = program.folder / "cut/result.h5";
+  const double all = number_in(result, "summary/time_processor");
+  EXPECT_GT(all, before);
+  EXPECT_LT(all, number_in(result, "summary/wall_clock") + 0.1) << "one thread";
+}
+
+/// The column as a quarter in three dimensions.
+std::string quarter_scene() {
+  auto text = scene();
+  const auto put = [&](const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+  };
+  put("\"axisymmetric\"\nspacing = 0.004", "\"three_dimensional\"\nsector = \"quarter\"\nspacing = 0.00625");
+  put("time = 0.4", "time = 0.1");
+  return text;
+}
+
+/// The column of an elastic material whose stress is turned by the rotation from the polar decomposition.
+std::string green_naghdi_scene() {
+  auto text = scene();
+  const auto from = text.find("file ="), to = text.find("[floor]");
+  text.replace(
+      from, to - from,
+      fmt::format("library = \"{}/test_vumats/libelastic.so\"\nname = \"elastic\"\nproperties = [1e5, "
+                  "0.3]\nstate_variables = 1\ndensity = 1500.0\nkinematics = \"green-naghdi\"\n"
+                  "[initial_stress]\nK0 = 0.5\n",
+                  SIMSAND_BINARY_DIR));
+  text.replace(text.find("time = 0.4"), 10, "time = 0.4\nkinetic_energy_fraction = 0");
+  return text;
+}
+
+using NamedScene = std::pair<std::string, std::string (*)()>;
+class OtherRuns : public testing::TestWithParam<NamedScene> {};
+
+TEST_P(OtherRuns, GoOnBitForBit) {
+  const auto [name, text] = GetParam();
+  const Program program("restart_" + name);
+  program.write("scene.toml", text());
+  ASSERT_EQ(program.run("run -q -t 1 scene.toml").status, 0) << program.content("err");
+  interrupt(program, SIGTERM, "-q -t 2", text());
+  ASSERT_EQ(program.run("run -q -t 1 --resume cut").status, 0) << program.content("err");
+  expect_same(program.folder / "cut/result.h5", content_of(program.folder / "whole/result.h5"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Restart, OtherRuns,
+                         testing::Values(NamedScene{"quarter", quarter_scene},
+                                         NamedScene{"green_naghdi", green_naghdi_scene}));
 
 TEST(Restart, WarnsOfAnotherMaterialLibrary) {
   const Program program("restart_library");

@@ -48,16 +48,17 @@ inline std::string material(const std::string& library, const std::string& prope
                      SIMSAND_BINARY_DIR, library, library, properties, states, extra);
 }
 
-/// Runs a collapse of a few milliseconds of a block of 10 x 10 particles, or more.
+/// Runs a collapse of a few milliseconds of a block of 10 x 10 particles, or more; a quarter of one in three
+/// dimensions.
 inline Outcome run_scene(const std::string& material, const std::string& geometry = "plane_strain",
                          int threads = 1, int across = 10) {
   std::filesystem::remove_all(folder() / "results");
   std::ofstream(folder() / "scene.toml") << fmt::format(
-      "[scene]\ngeometry = \"{}\"\nspacing = {}\n[column]\nradius = 0.05\nheight = 0.05\n{}"
+      "[scene]\ngeometry = \"{}\"\n{}spacing = {}\n[column]\nradius = 0.05\nheight = 0.05\n{}"
       "[initial_stress]\nK0 = 0.5\n[floor]\nfriction = 0.5\n[gate]\nmotion = \"lift\"\nspeed = 1.6\n"
       "[end]\ntime = 0.02\n[output]\nfolder = \"results\"\nsample_interval = 0.002\n"
       "snapshot_interval = 0.01\ngrain_diameter = 0.003\n",
-      geometry, 0.05 / across, material);
+      geometry, geometry == "three_dimensional" ? "sector = \"quarter\"\n" : "", 0.05 / across, material);
   return simsand(fmt::format("run --quiet --threads {} scene.toml", threads));
 }
 

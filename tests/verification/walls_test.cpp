@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walls against closed forms: a block on an incline, loads at rest and in a rough tube, momentum, tightness, motion.
 #include "tests/verification/walls_fixture.hpp"
+#include <omp.h>
 
 namespace {
 
@@ -356,6 +357,49 @@ TEST(Moving, ALiftedTubeIsTheGate) {
       "by_tube");
   std::printf("mean radius after 0.15 s: gate %.3f mm, lifted tube %.3f mm\n", 1e3 * gate, 1e3 * tube);
   EXPECT_NEAR(tube, gate, 0.02 * gate);
+}
+
+/// Sand in flight shows no wave and stiffens all at once where it lands: a step that knows only of waves is too large.
+TEST(Impact, IsSoundAtTheRecommendedStep) {
+  for (const double speed : {2., 10.}) {
+    const double fall = speed * speed / (2 * g);
+    const auto scene = wall_scene(
+        {.column = fmt::format("radius = 0.025\nheight = 0.05\nsymmetric = false\nbase = {}", fall),
+         .material = sand("TS", 0.4451),
+         .walls = "[[wall]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0.0, 0.0]\nnormal = [0.0, 1.0]\n"
+                  "friction = 0.3",
+         .spacing = 0.005,
+         .end_time = speed / g + 0.3},
+        "impact");
+    omp_set_num_threads(1);
+    const auto summary = drivers::run_scene(scene, {.quiet = true});
+    std::printf("%g m/s: energy closed to %.1e; work of pairs %.2f, walls %.2f, viscosity %.2f\n", speed,
+                value_of(summary, "energy_imbalance"), value_of(summary, "work_stress"),
+                value_of(summary, "work_wall"), value_of(summary, "work_viscosity"));
+    EXPECT_LT(value_of(summary, "energy_imbalance"), 0.005);
+    EXPECT_LT(value_of(summary, "work_stress"), 0);
+    EXPECT_LT(value_of(summary, "work_wall"), 0);
+    EXPECT_LT(value_of(summary, "work_viscosity"), 0);
+  }
+}
+
+/// A scene of data/scenes, run as a user would with `settings`: nothing is gained or lost.
+void expect_energy_closed(const std::string& name, const std::vector<std::string>& settings) {
+  auto scene = drivers::read_scene(fmt::format("{}/data/scenes/{}.toml", SIMSAND_SOURCE_DIR, name), settings);
+  scene.output_folder = fresh_folder("shipped_" + name);
+  omp_set_num_threads(1);
+  const auto summary = drivers::run_scene(scene, {.quiet = true});
+  std::printf("%s: energy closed to %.1e, kinetic at the end %.3f\n", name.c_str(),
+              value_of(summary, "energy_imbalance"), value_of(summary, "kinetic_energy"));
+  EXPECT_LT(value_of(summary, "energy_imbalance"), 0.005);
+  EXPECT_LT(value_of(summary, "work_viscosity"), 0);
+  EXPECT_LT(value_of(summary, "work_stress"), 0);
+}
+
+TEST(ShippedScenes, CloseTheirEnergy) {
+  expect_energy_closed("chute", {"scene.spacing=0.01", "end.time=0.8"});
+  // The plate is as thin as the reach of particles at 5 mm.
+  expect_energy_closed("box", {"end.time=0.2"});
 }
 
 } // namespace

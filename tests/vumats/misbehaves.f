@@ -135,6 +135,23 @@ c
         call xplb_abqerr(1, '%S in %S, %I of %I', intv, realv, charv)
       case (18)
         stressNew(1,1) = stressNew(1,1) + stateOld(n,nstatev+1)
+      case (19)
+        stateNew(n,nstatev) = sqrt(-1 - totalTime)
+      case (20)
+        enerInelasNew(n) = sqrt(-1 - totalTime)
+      case (21)
+        jInfoArray(0) = 0
+      case (22)
+        jInfoArray(9+n) = 0
+      case (23)
+c       Element numbers into STATEV; point, layer and section point are 1.
+        do k = 1, n
+          stateNew(k,1) = jInfoArray(jInfoArray(6)+k-1)
+     1      *jInfoArray(2)*jInfoArray(3)*jInfoArray(4)
+        end do
+      case (24)
+        strainInc(1,1) = strainInc(1,1) + 1
+        stressNew(n,1) = sqrt(-1 - totalTime)
       end select
       end
 
