@@ -19,10 +19,9 @@ inline constexpr double largest_made_energy = 0.02, largest_unclosed_energy = 0.
 /// Largest work that may have been done on the sand, over the initial potential energy, by artificial viscosity, which
 /// only takes, and by a wall at rest, whose images without slip give up to 0.008 in sound collapses.
 inline constexpr double largest_viscous_gift = 1e-3, largest_wall_gift = 0.03;
-/// The same by the pairs where no wall moves. Sand gives back what it was loaded with, less than a hundredth. Slender
-/// axisymmetric columns (a = 4 to 20) show bursts within a millisecond, mostly 0.1 to 0.3, near the axis, which the
-/// viscosity takes, at any step. A run warns of the first number and ends at the second.
-inline constexpr double suspect_pair_gift = 0.05, largest_pair_gift = 0.5;
+/// The same by the pairs where no wall moves. Sand gives back what it was loaded with, less than a thousandth. A run
+/// warns of the first number and ends at the second.
+inline constexpr double suspect_pair_gift = 0.01, largest_pair_gift = 0.05;
 
 struct UnsoundMotion : std::runtime_error {
   using std::runtime_error::runtime_error;

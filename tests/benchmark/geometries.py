@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""One column in axisymmetry, a quarter and the whole in three dimensions, at equal spacing: dense tetrahedral grains,
-aspect ratio 1, by runs that differ in the step alone. Prints every run, and mean and scatter of height and front for each
-geometry. At 2 mm a quarter takes 8 minutes of one core and the whole half an hour. Complete runs are not run again.
+"""One column in axisymmetry, a quarter and the whole in three dimensions, at equal spacing, by runs that differ in the step
+alone. Prints every run, and mean and scatter of height and front for each geometry. At 2 mm a quarter of aspect ratio 1 takes
+8 minutes of one core and the whole half an hour. Complete runs are not run again.
 
-usage: geometries.py SIMSAND FOLDER [--spacing M] [--axisymmetric N] [--quarter N] [--full N] [-j JOBS]"""
+usage: geometries.py SIMSAND FOLDER [--column NAME] [--spacing M] [--axisymmetric N] [--quarter N] [--full N] [-j JOBS]"""
 import argparse
 import json
 import pathlib
@@ -13,7 +13,8 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "data/scenes"
-SCENE = {"axisymmetric": "ts_dense_a1", "quarter": "ts_dense_a1_quarter", "full": "ts_dense_a1_full"}
+SOLID = ["scene.geometry=three_dimensional", "scene.sector="]
+SETTINGS = {"axisymmetric": [], "quarter": [SOLID[0], SOLID[1] + "quarter"], "full": [SOLID[0], SOLID[1] + "full"]}
 FACTORS = [0.4, 0.39, 0.41, 0.395, 0.405, 0.385, 0.38, 0.375]  # of the step
 
 
@@ -24,13 +25,14 @@ def command(simsand, *arguments):
     return done.stdout
 
 
-def collapse(simsand, folder, spacing, geometry, factor):
+def collapse(simsand, folder, column, spacing, geometry, factor):
     """Summary of one run: name to value."""
-    place = folder / f"{geometry}_{1000 * spacing:g}mm_{factor}"
+    place = folder / f"{column}_{geometry}_{1000 * spacing:g}mm_{factor}"
     if not (place / "complete").exists():
         fresh = not (place / "checkpoint.h5").exists()
-        start = [SCENES / f"{SCENE[geometry]}.toml", "--set", f"scene.spacing={spacing}", "--set",
-                 f"numerics.step_factor={factor}", "-o", place] if fresh else ["--resume", place]
+        settings = [f"scene.spacing={spacing}", f"numerics.step_factor={factor}", *SETTINGS[geometry]]
+        setting = [word for value in settings for word in ("--set", value)]
+        start = [SCENES / f"{column}.toml", *setting, "-o", place] if fresh else ["--resume", place]
         command(simsand, "run", *start, "-t", "1", "-q")
         (place / "complete").touch()
     summary = json.loads(command(simsand, "info", place / "result.h5", "--json"))["summary"]
@@ -41,15 +43,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("simsand")
     parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--column", default="ts_dense_a1", help="a scene of data/scenes, axisymmetric")
     parser.add_argument("--spacing", type=float, default=0.002, help="m")
     for geometry, count in (("axisymmetric", 8), ("quarter", 3), ("full", 1)):
         parser.add_argument(f"--{geometry}", type=int, default=count, help="runs, at most 8")
     parser.add_argument("-j", "--jobs", type=int, default=1, help="runs at a time, each on one thread")
     given = parser.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
-    cases = [(geometry, factor) for geometry in SCENE for factor in FACTORS[: getattr(given, geometry)]]
+    cases = [(geometry, factor) for geometry in SETTINGS for factor in FACTORS[: getattr(given, geometry)]]
     with ThreadPoolExecutor(given.jobs) as pool:
-        runs = list(pool.map(lambda case: collapse(given.simsand, given.folder, given.spacing, *case), cases))
+        runs = list(pool.map(lambda case: collapse(given.simsand, given.folder, given.column, given.spacing, *case), cases))
     print(f"{'geometry':<14}{'step factor':>12}{'h_f/r0':>8}{'r_f/r0':>8}{'rest s':>8}{'steps':>8}{'cpu s':>8}{'1e6/s':>7}{'imbalance':>11}")
     fronts, heights = {}, {}
     for (geometry, factor), run in zip(cases, runs):
