@@ -244,11 +244,13 @@ TEST(Stability, WhatIsKnownIsNotRunAgain) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ','), 20) << row;
     holds += row.ends_with(",holds");
     stopped += row.find(",stopped: ") != std::string::npos;
-    const bool too_large = row.find(",4.8,") != std::string::npos;
+    // In axisymmetry the ring next to the axis bounds the step.
+    const bool too_large =
+        row.find(",4.8,") != std::string::npos && row.find("plane_strain") != std::string::npos;
     EXPECT_TRUE(!too_large || row.find(",stopped: ") != std::string::npos) << row;
   }
   EXPECT_GE(holds, 4);
-  EXPECT_GE(stopped, 8);
+  EXPECT_GE(stopped, 5);
   // Cut off in a line: what is whole is kept, the rest run again, on other threads, with the same numbers.
   const auto whole = content(table);
   std::ofstream(table) << whole.substr(0, whole.size() / 2);
