@@ -109,4 +109,25 @@ void write_dataset(const H5::Group& group, const std::string& name, const std::s
   if (!values.empty()) dataset.write(values.data(), real());
 }
 
+void write_column(const H5::Group& group, const std::string& name, const std::string& unit,
+                  const std::vector<double>& values) {
+  constexpr hsize_t rows_per_chunk = 512;
+  const hsize_t rows = values.size(), unlimited = H5S_UNLIMITED;
+  H5::DSetCreatPropList properties;
+  properties.setChunk(1, &rows_per_chunk);
+  const auto dataset = group.createDataSet(name, real(), H5::DataSpace(1, &rows, &unlimited), properties);
+  attribute(dataset, "unit", unit);
+  if (rows > 0) dataset.write(values.data(), real());
+}
+
+bool is_whole(const std::filesystem::path& file, const std::string& name, const std::string& last) {
+  try {
+    const auto group = open_to_read(file).openGroup(name);
+    for (hsize_t k = 0; k < group.getNumObjs(); ++k) group.openDataSet(group.getObjnameByIdx(k));
+    return group.attrExists(last);
+  } catch (const H5::Exception&) {
+    return false;
+  }
+}
+
 } // namespace host

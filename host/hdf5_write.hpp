@@ -50,4 +50,12 @@ void attribute(const H5::H5Object& object, const std::string& name, double value
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values, int components = 1);
 
+/// A column of numbers that may be empty.
+void write_column(const H5::Group& group, const std::string& name, const std::string& unit,
+                  const std::vector<double>& values);
+
+/// True if the file can be read and its group `name` has all of its datasets and the attribute `last`, which was
+/// written last.
+bool is_whole(const std::filesystem::path& file, const std::string& name, const std::string& last);
+
 } // namespace host

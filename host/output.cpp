@@ -18,7 +18,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int format_version = 1;
-constexpr hsize_t samples_per_chunk = 512;
 constexpr auto snapshot_name = "{:04d}";
 constexpr auto constants = "particles"; ///< group and part of what never changes
 
@@ -26,26 +25,6 @@ void write_fields(const H5::Group& group, std::span<const Field> fields,
                   const std::vector<std::vector<double>>& values) {
   for (std::size_t f = 0; f < fields.size(); ++f)
     write_dataset(group, fields[f].name, fields[f].unit, values[f], int(fields[f].components.size()));
-}
-
-/// A column that a reader may find empty.
-void write_column(const H5::Group& group, const Quantity& column, const std::vector<double>& values) {
-  const hsize_t rows = values.size(), unlimited = H5S_UNLIMITED;
-  H5::DSetCreatPropList properties;
-  properties.setChunk(1, &samples_per_chunk);
-  const auto dataset =
-      group.createDataSet(column.name, real(), H5::DataSpace(1, &rows, &unlimited), properties);
-  attribute(dataset, "unit", column.unit);
-  if (rows > 0) dataset.write(values.data(), real());
-}
-
-/// XDMF text without the grid that reads from `group`.
-std::string without_grid(std::string xdmf, const std::string& group) {
-  constexpr std::string_view begin = "   <Grid ", end = "</Grid>\n";
-  const auto inside = xdmf.find(group);
-  if (inside == std::string::npos) return xdmf;
-  const auto first = xdmf.rfind(begin, inside), last = xdmf.find(end, inside) + end.size();
-  return xdmf.erase(first, last - first);
 }
 
 } // namespace
@@ -113,7 +92,8 @@ struct ResultFile::Impl {
     const auto text = text_type(header.scene);
     file.createDataSet("scene", text, H5::DataSpace(H5S_SCALAR)).write(header.scene, text);
     const auto series = file.createGroup("series"), totals = file.createGroup("summary");
-    for (std::size_t c = 0; c < columns.size(); ++c) write_column(series, columns[c], done.series[c]);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      write_column(series, columns[c].name, columns[c].unit, done.series[c]);
     for (const auto& [name, entry] : summary) {
       const auto dataset = totals.createDataSet(name, real(), H5::DataSpace(H5S_SCALAR));
       attribute(dataset, "unit", entry.first);
@@ -170,23 +150,13 @@ struct ResultFile::Impl {
     take_place(path);
   }
 
-  /// True if all of a snapshot is there: its time is written last.
-  bool is_readable(const std::string& name) const {
-    try {
-      const auto group = open_to_read(part(name)).openGroup(name);
-      for (hsize_t k = 0; k < group.getNumObjs(); ++k) group.openDataSet(group.getObjnameByIdx(k));
-      return group.attrExists("time");
-    } catch (const H5::Exception&) {
-      return false;
-    }
-  }
-
   /// Leaves out the snapshots that cannot be read.
   void drop_unreadable() {
     for (const int s : kept()) {
-      if (is_readable(name_of(s))) continue;
+      // Its time is written last.
+      if (is_whole(part(name_of(s)), name_of(s), "time")) continue;
       done.lost.push_back(s);
-      done.xdmf = without_grid(done.xdmf, "/snapshots/" + name_of(s) + "/");
+      done.xdmf = without_xdmf_grid(done.xdmf, "/snapshots/" + name_of(s) + "/");
       left_out.push_back(part(name_of(s)));
     }
   }

@@ -52,4 +52,12 @@ void write_xdmf(const std::filesystem::path& to, const std::string& grids) {
   if (!out || error) throw std::runtime_error(fmt::format("{}: cannot write the XDMF file", to.string()));
 }
 
+std::string without_xdmf_grid(std::string grids, const std::string& group) {
+  constexpr std::string_view begin = "   <Grid ", end = "</Grid>\n";
+  const auto inside = grids.find(group);
+  if (inside == std::string::npos) return grids;
+  const auto first = grids.rfind(begin, inside), last = grids.find(end, inside) + end.size();
+  return grids.erase(first, last - first);
+}
+
 } // namespace host

@@ -12,4 +12,7 @@ std::string xdmf_grid(const std::string& file, const std::string& group, double 
 /// Writes the collection of `grids`. Throws std::runtime_error naming the file.
 void write_xdmf(const std::filesystem::path& to, const std::string& grids);
 
+/// The grids without the one that reads from `group`.
+std::string without_xdmf_grid(std::string grids, const std::string& group);
+
 } // namespace host
