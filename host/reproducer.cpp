@@ -46,6 +46,17 @@ bool all_finite(const GuardedArray& a) { // an exponent of ones: infinite or no 
   return finite;
 }
 
+/// An input of point k that is not finite, as no host passes it, after a call that was not compared; empty: none.
+std::string overwritten_input(const VumatBlock& b, int k) {
+  std::string found;
+  each_array(b, [&](const char* name, const GuardedArray& a, bool input) {
+    if (!input || &a == &b.constants) return;
+    for (std::size_t c = k; c < a.size(); c += b.points)
+      if (!std::isfinite(a[c])) found = name;
+  });
+  return found;
+}
+
 /// Writes `text` to `file` and says how to use it, or that it cannot be written.
 std::string write_reproducer(const std::string& text, const std::filesystem::path& file) {
   if (file.empty()) return {};
@@ -92,6 +103,8 @@ int first_failure(const VumatBlock& b, int failure_state) {
 }
 
 std::string fault_of(const VumatBlock& b, int k, int failure_state) {
+  if (const auto name = overwritten_input(b, k); !name.empty())
+    return fmt::format("wrote a number that is not finite to {}, which is an input", name);
   const auto at = [&](const GuardedArray& a, std::size_t c) { return a[c * b.points + k]; };
   if (failure_state >= 0 && at(b.state_new, failure_state) < 0)
     return fmt::format("reported a failure, state variable {} is {:g}", failure_state + 1,

@@ -168,7 +168,7 @@ __attribute__((flatten, noinline)) void try_plastic(const Material<Real>& m, con
   team.each([&](W& w) { set_tangents(m, w.critical, w.density, w.trial.in.slopes_start); });
   team.each([&](W& w) {
     auto& M = w.trial.in.slopes_start;
-    M = at_angle(M, sin_3theta(w.trial.s_old, w.trial.in.q_start));
+    M = at_angle(M, start_sin_3theta(w.trial));
   });
   team.each([&](W& w) { w.flow = turn_deviator(m, w.trial); });
   team.each([&](W& w) { w.solved = w.rests; });

@@ -2,40 +2,20 @@
 // The stress update: EQUATIONS.md, section "Update". One substep is a scalar problem in the measure y of the
 // mean stress at its end; the yield condition gives the multiplier of each y in closed form.
 #include "vumat/simsand.hpp"
-#include "vumat/substep.hpp"
+#include "vumat/zero_pressure.hpp"
 
 namespace simsand {
 namespace {
 
-/// Contraction alone may empty a point of its stress only in substeps as short as this.
-constexpr int ticks_of_collapse = ticks_per_increment / 16;
+/// The longest substep in which a point may lose all its stress, or leave zero pressure against contraction at first.
+constexpr int ticks_at_zero = ticks_per_increment / 4096;
 
 /// A substep of one point, and what may refuse it.
 template <class Real, int N> struct Attempt : Substep<Real, N> {
   bool converged = true;
-  bool collapsed = false; ///< p reached 0 by contraction, not by extension
+  bool brief = false;   ///< p reached 0, or left it by dilation that followed on contraction
+  bool regains = false; ///< p reached 0, from where dilation leads back to pressure
 };
-
-/// Elastic volumetric strain that takes a point of measure y to zero pressure: the integral of (1) along (10)
-/// solved by Newton's rule, which squares the error, from the tangent.
-template <class Real> Real strain_to_zero_pressure(const Material<Real>& m, Real e, Real measure) {
-  Real d = measure / (m.given.K0 * void_ratio_factor(e));
-  for (int i = 0; i < 4; ++i) {
-    const Real used = m.given.K0 * d * mean_void_ratio_factor(void_ratio_after(e, -d / 2), d);
-    d += (measure - used) / (m.given.K0 * void_ratio_factor(void_ratio_after(e, -d)));
-  }
-  return d;
-}
-
-/// The end of a point that lost its stress.
-template <class Real, int N>
-Substep<Real, N> parted_end(const Material<Real>& m, const Increment<Real>& in, const Candidate<Real>& end) {
-  const Real beyond =
-      end.plastic_volumetric - in.volumetric - strain_to_zero_pressure(m, in.e_start, in.start.measure);
-  const Real gap = std::max(beyond, tiny<Real>);
-  return {
-      {{}, in.e_end, in.eps_d + end.multiplier, gap}, plastic_work(in, end), 0, end.multiplier > 0, false};
-}
 
 /// One substep of a point that carries stress or is about to.
 template <class Real, int N>
@@ -44,17 +24,24 @@ Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>&
   auto trial = elastic_trial(m, old, strain);
   if (trial.inside) return {elastic_end(m, trial)};
   auto& in = trial.in;
-  in.slopes_start = slopes(m, in.e_start, in.start, sin_3theta(trial.s_old, in.q_start));
+  in.slopes_start = slopes(m, in.e_start, in.start, start_sin_3theta(trial));
   const auto flow = turn_deviator(m, trial);
   Attempt<Real, N> out;
   Slopes<Real> at_trial;
   set_tangents(m, trial.critical, trial.density, at_trial);
   const auto first = candidate(m, in, trial.pressure, at_angle(at_trial, in.sin3theta));
   const auto end = solve(m, in, first, out.converged);
-  const bool parted = end.pressure.measure == 0;
-  static_cast<Substep<Real, N>&>(out) =
-      parted ? parted_end<Real, N>(m, in, end) : plastic_end(m, trial, flow, end);
-  out.collapsed = parted && trial.measure > 0;
+  const bool in_contact = contracts_in_contact(m, in, end);
+  if (end.pressure.measure > 0) {
+    static_cast<Substep<Real, N>&>(out) = plastic_end(m, trial, flow, end);
+    out.brief = in_contact;
+  } else if (in_contact) {
+    static_cast<Substep<Real, N>&>(out) = flow_in_contact<Real, N>(m, in, end);
+  } else {
+    static_cast<Substep<Real, N>&>(out) = parted_end<Real, N>(m, in, end);
+    out.brief = true;
+    out.regains = dilates_at_zero(m, in, end);
+  }
   return out;
 }
 
@@ -114,20 +101,24 @@ Update<Real, N> update(const Material<Real>& m, const Point<Real, N>& old,
     out.status = Status::bad_input;
     return out;
   }
+  const Real volumetric = trace(strain_increment);
   bool plastic = false, cut = false;
   int done = 0, size = ticks_per_increment;
   while (done < ticks_per_increment) {
     size = std::min(size, ticks_per_increment - done);
     const auto part = scale(Real(size) / ticks_per_increment, strain_increment);
     const auto next = substep(m, out.point, part);
-    const bool accepted = next.converged && next.error <= Real(substep_tolerance) &&
-                          !(next.collapsed && size > ticks_of_collapse);
+    const bool accepted =
+        next.converged && next.error <= Real(substep_tolerance) && !(next.brief && size > ticks_at_zero);
     if (accepted || (size == 1 && next.converged)) {
       out.point = next.point;
       out.dissipation += next.dissipation;
       plastic = plastic || next.plastic;
       out.nonconvex = next.nonconvex;
       done += size;
+      out.point.void_ratio = // not summed up over many substeps
+          void_ratio_after(old.void_ratio, volumetric * done / ticks_per_increment);
+      if (next.regains && done < ticks_per_increment) out.point.separation_strain = 0;
       size *= 2;
     } else if (size == 1) {
       out = {old, Status::exhausted, 0, false};
@@ -137,6 +128,8 @@ Update<Real, N> update(const Material<Real>& m, const Point<Real, N>& old,
       size = std::max(size / 4, 1);
     }
   }
+  if (trace(out.point.stress) == 0)
+    out.point.separation_strain = std::max(out.point.separation_strain, tiny<Real>);
   out.status = out.point.separation_strain > 0 ? Status::stress_free
                : cut                           ? Status::substepped
                : plastic                       ? Status::plastic

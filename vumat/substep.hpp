@@ -10,7 +10,7 @@ namespace simsand {
 /// Accepted error of a substep (20).
 inline constexpr double substep_tolerance = 0.05;
 /// Substeps are counted in ticks; an increment is so many, the smallest substep is one.
-inline constexpr int ticks_per_increment = 1024;
+inline constexpr int ticks_per_increment = 65536;
 
 template <class Real, int N> struct Substep {
   Point<Real, N> point;
@@ -111,6 +111,11 @@ Trial<Real, N> elastic_trial(const MaterialOf<Real>& m, const Point<Real, N>& ol
   return t;
 }
 
+/// Lode angle at the start; without shear stress there, that of the trial.
+template <class Real, int N> Real start_sin_3theta(const Trial<Real, N>& t) {
+  return select(t.in.q_start > 0, sin_3theta(t.s_old, t.in.q_start), t.in.sin3theta);
+}
+
 /// The flow direction at mid-step (19): where half of the plastic flow is along the deviator that reaches the yield
 /// surface and half along that at the end, the latter is parallel to s_trial - 3 G x / (2 q) s.
 template <class Real, int N> Flow<Real, N> turn_deviator(const MaterialOf<Real>& m, Trial<Real, N>& t) {
@@ -129,7 +134,7 @@ template <class Real, int N> Flow<Real, N> turn_deviator(const MaterialOf<Real>&
   flow.q = deviatoric_stress(flow.direction);
   in.sin3theta = sin_3theta(flow.direction, flow.q);
   const Real cosine = Real(1.5) * contract(s_yield, flow.direction) / max(q_yield * flow.q, tiny_stress);
-  flow.turn = max(2 * (1 - cosine), Real(0));
+  flow.turn = select(q_yield > 0, max(2 * (1 - cosine), Real(0)), Real(0));
   return flow;
 }
 
@@ -168,10 +173,13 @@ Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t,
       min(3 * end.shear_modulus * x / max(end.q_trial, Real(tiny<Scalar<Real>>)), Real(1));
   const Real slope_change = abs(end.slopes.transformation - in.slopes_start.transformation) +
                             abs(end.slopes.peak - in.slopes_start.peak);
-  out.error = mean_stiffness_error(m, in.start, t.pressure) +
-              plastic_share * flow.turn * sqrt(flow.turn) * Real(0.125) +
-              in.stiffening * x * m.given.A_d * slope_change /
-                  (2 * (1 - m.given.n) * (end.pressure.measure + m.floor_measure));
+  const Real by_measure = 1 / (end.pressure.measure + m.floor_measure);
+  const Real growth = abs(end.pressure.measure - in.start.measure) * by_measure;
+  out.error =
+      mean_stiffness_error(m, in.start, t.pressure) +
+      plastic_share * flow.turn * sqrt(flow.turn) * Real(0.25) +
+      in.stiffening * by_measure *
+          (x * m.given.A_d * slope_change / (2 * (1 - m.given.n)) + 2 * abs(end.plastic_volumetric) * growth);
   return out;
 }
 

@@ -90,20 +90,26 @@ template <class Real> std::string refusal(const LibraryBlock<Real>& block, int k
   return "";
 }
 
-void compare(const Material& m, const RandomPoint& r, const Point& after, RandomReport& report) {
+/// Largest error of the stress that may be reported as success.
+constexpr double largest_silent_error = 0.1;
+
+/// Compares with the reference. Empty, or what is wrong.
+std::string compare(const Material& m, const RandomPoint& r, const Point& after, RandomReport& report) {
   const bool comparable = r.origin == Origin::inside || r.origin == Origin::on_surface ||
                           r.origin == Origin::isotropic || r.origin == Origin::parted ||
                           r.origin == Origin::no_stress;
-  if (!comparable) return;
+  if (!comparable) return "";
   const auto exact = integrate_rates(m, r.point, r.strain);
   if (!exact.found) {
     ++report.not_compared;
-    return;
+    return "";
   }
   ++report.compared;
   const double scale = std::max({norm(exact.point.stress), norm(r.point.stress), m.given.p_min});
-  report.errors.push_back({std::floor(std::log10(norm(r.strain)) + 1e-12),
-                           norm(simsand::add(after.stress, -1., exact.point.stress)) / scale});
+  const double error = norm(simsand::add(after.stress, -1., exact.point.stress)) / scale;
+  report.errors.push_back({std::floor(std::log10(norm(r.strain)) + 1e-12), error});
+  if (error <= largest_silent_error) return "";
+  return fmt::format("stress off by more than {}", largest_silent_error);
 }
 
 template <class Real> RandomReport check(const RandomOptions& options, std::int64_t index) {
@@ -147,9 +153,10 @@ template <class Real> RandomReport check(const RandomOptions& options, std::int6
     const auto after = block.get(k);
     const double p = mean(after.stress), f = p > 0 ? yield_of(m, after) / p : 0;
     report.largest_yield = std::max(report.largest_yield, f);
-    const auto what = fault(m, r, after, status, double(block.inelastic_new[k]), f, tolerances<Real>);
+    auto what = fault(m, r, after, status, double(block.inelastic_new[k]), f, tolerances<Real>);
+    if (what.empty() && options.compared > 0 && (index * random_block + k) % every == 0)
+      what = compare(m, r, after, report);
     if (!what.empty()) violated(k, what);
-    if (options.compared > 0 && (index * random_block + k) % every == 0) compare(m, r, after, report);
   }
   return report;
 }

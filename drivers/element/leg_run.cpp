@@ -100,6 +100,8 @@ void LegRun::fail(const Leg& leg, const std::string& why) const {
 
 LegEnd LegRun::run(const Leg& leg, bool fresh) {
   if (fresh) stiffness = setting.material.elastic_stiffness(row.point);
+  if (!stiffness.allFinite())
+    fail(leg, "no elastic stiffness from the data check; " + setting.material.evidence(setting.failed_point));
   const bool watched = !stage.stops.empty() || !leg.limits.empty();
   Increment increment;
   for (long i = 0; i < leg.increments; ++i) {

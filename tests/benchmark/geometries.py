@@ -1,20 +1,23 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """One column in axisymmetry, a quarter and the whole in three dimensions, at equal spacing, by runs that differ in the step
-alone. Prints every run, and mean and scatter of height and front for each geometry. At 2 mm a quarter of aspect ratio 1 takes
+alone. Prints every run, and mean and scatter of height, front and radii of the mass for each geometry. At 2 mm a quarter of aspect ratio 1 takes
 8 minutes of one core and the whole half an hour. Complete runs are not run again.
 
 usage: geometries.py SIMSAND FOLDER [--column NAME] [--spacing M] [--axisymmetric N] [--quarter N] [--full N] [-j JOBS]"""
 import argparse
+import h5py
 import json
+import numpy
 import pathlib
-import statistics
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "data/scenes"
 SOLID = ["scene.geometry=three_dimensional", "scene.sector="]
 SETTINGS = {"axisymmetric": [], "quarter": [SOLID[0], SOLID[1] + "quarter"], "full": [SOLID[0], SOLID[1] + "full"]}
+SHARES = [0.5, 0.9, 0.99]
+RADIUS = 0.05  # m, of all columns
 FACTORS = [0.4, 0.39, 0.41, 0.395, 0.405, 0.385, 0.38, 0.375]  # of the step
 
 
@@ -23,6 +26,16 @@ def command(simsand, *arguments):
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(map(str, arguments))}: {done.stderr.strip()}")
     return done.stdout
+
+
+def radius_with(share, file):
+    """Radius of the cylinder that holds a share of the mass at the end, m."""
+    with h5py.File(file) as result:
+        position = result["snapshots"][max(result["snapshots"])]["position"][:]
+        mass = result["particles/mass"][:]
+    radius = position[:, 0] if position.shape[1] == 2 else numpy.hypot(position[:, 0], position[:, 1])
+    order = numpy.argsort(radius)
+    return numpy.interp(share, numpy.cumsum(mass[order]) / mass.sum(), radius[order])
 
 
 def collapse(simsand, folder, column, spacing, geometry, factor):
@@ -36,7 +49,8 @@ def collapse(simsand, folder, column, spacing, geometry, factor):
         command(simsand, "run", *start, "-t", "1", "-q")
         (place / "complete").touch()
     summary = json.loads(command(simsand, "info", place / "result.h5", "--json"))["summary"]
-    return {name: entry["value"] if isinstance(entry, dict) else entry for name, entry in summary.items()}
+    run = {name: entry["value"] if isinstance(entry, dict) else entry for name, entry in summary.items()}
+    return run | {share: radius_with(share, place / "result.h5") / RADIUS for share in SHARES}
 
 
 def main():
@@ -54,21 +68,20 @@ def main():
     with ThreadPoolExecutor(given.jobs) as pool:
         runs = list(pool.map(lambda case: collapse(given.simsand, given.folder, given.column, given.spacing, *case), cases))
     print(f"{'geometry':<14}{'step factor':>12}{'h_f/r0':>8}{'r_f/r0':>8}{'rest s':>8}{'steps':>8}{'cpu s':>8}{'1e6/s':>7}{'imbalance':>11}")
-    fronts, heights = {}, {}
+    collected = {}
     for (geometry, factor), run in zip(cases, runs):
-        heights.setdefault(geometry, []).append(run["final_height"])
-        fronts.setdefault(geometry, []).append(1 + run["runout"])
-        print(f"{geometry:<14}{factor:>12}{run['final_height']:>8.3f}{1 + run['runout']:>8.3f}{run['time_to_rest'] or float('nan'):>8.3f}"
+        values = [run["final_height"], 1 + run["runout"], *(run[share] for share in SHARES)]
+        collected.setdefault(geometry, []).append(values)
+        print(f"{geometry:<14}{factor:>12}{values[0]:>8.3f}{values[1]:>8.3f}{run['time_to_rest'] or float('nan'):>8.3f}"
               f"{run['steps']:>8.0f}{run['time_processor']:>8.0f}{run['particles'] * run['steps'] / run['time_processor'] / 1e6:>7.2f}"
               f"{run['energy_imbalance']:>11.1e}")
-    print(f"\n{'geometry':<14}{'runs':>5}{'h_f/r0':>8}{'+-':>7}{'ratio':>7}{'r_f/r0':>8}{'+-':>7}{'ratio':>7}")
-    for geometry in heights:
-        row = f"{geometry:<14}{len(heights[geometry]):>5}"
-        for values in (heights, fronts):
-            mean = statistics.mean(values[geometry])
-            scatter = statistics.stdev(values[geometry]) if len(values[geometry]) > 1 else float("nan")
-            row += f"{mean:>8.3f}{scatter:>7.3f}{mean / statistics.mean(values[next(iter(heights))]):>7.3f}"
-        print(row)
+    names = ["h_f/r0", "r_f/r0", *(f"r {100 * share:g} %" for share in SHARES)]
+    print(f"\n{'geometry':<14}{'runs':>5}" + "".join(f"{name:>9}{'+-':>7}{'ratio':>7}" for name in names))
+    first = numpy.mean(next(iter(collected.values())), axis=0)
+    for geometry, values in collected.items():
+        mean = numpy.mean(values, axis=0)
+        scatter = numpy.std(values, axis=0, ddof=1) if len(values) > 1 else numpy.full(len(names), numpy.nan)
+        print(f"{geometry:<14}{len(values):>5}" + "".join(f"{m:>9.3f}{d:>7.3f}{m / f:>7.3f}" for m, d, f in zip(mean, scatter, first)))
 
 
 if __name__ == "__main__":

@@ -202,6 +202,9 @@ TEST(VumatCall, TellsWhyAnAnswerCannotBeUsed) {
   // What is read beyond an array is no number and spreads.
   EXPECT_EQ(fault([](const Arguments& a) { a.stress_new[2] += a.state_old[8]; }),
             "returned a number that is not finite, component 1 of stressNew, from words beyond an array");
+  block.calls = 20; // inputs of this call are not compared
+  EXPECT_EQ(fault([](const Arguments& a) { a.stress_old[2] = a.stress_new[2] = NAN; }),
+            "wrote a number that is not finite to stressOld, which is an input");
 }
 
 TEST(VumatCall, TurnsWhatIsThrownIntoAnError) {

@@ -136,8 +136,9 @@ TEST(Refinement, TheDepositStandsStillAsTheSpacingIsHalved) {
              middle = mean_deposit({.spacing = 0.002}, "refine_2mm_"),
              fine = mean_deposit({.spacing = 0.001}, "refine_1mm_");
   for (const auto* other : {&coarse, &middle}) EXPECT_NEAR(other->height, fine.height, 0.02);
-  // The front is one grain high: at 4 mm it is not resolved.
-  EXPECT_NEAR(middle.runout, fine.runout, 0.05);
+  // The front is one grain high: at 4 mm it is not resolved. Of eight runs the runouts are 0.936 +- 0.024 at 2 mm and
+  // 0.949 +- 0.040 at 1 mm: three standard errors of the difference of two means of three are 0.08.
+  EXPECT_NEAR(middle.runout, fine.runout, 0.08);
   EXPECT_LT(std::abs(fine.runout - middle.runout), std::abs(middle.runout - coarse.runout));
 }
 

@@ -225,14 +225,15 @@ TEST(Element, AMaterialThatReturnsNaNIsAnErrorNamingStageAndStep) {
       path_text("SS", 0.82, 10e3, stage_text("triaxial-drained", "axial_strain = 0.1\nincrements = 50")));
   element.material.material.properties[12] = -1; // p_at: refused by the material
   const auto refused = error_of([&] { run_element_case(element, [](const ElementRow&) {}); });
-  EXPECT_TRUE(refused.starts_with("path.toml:6: stage 1 'shear', step 1 of 50: material SIMSAND reported a "
+  EXPECT_TRUE(refused.starts_with("path.toml:6: stage 1 'shear', step 0 of 50: no elastic stiffness from the "
+                                  "data check; material SIMSAND reported a "
                                   "failure, state variable 4 is -"))
       << refused;
   element.material.failure_state = -1; // a material without a status
   const auto nan = error_of([&] { run_element_case(element, [](const ElementRow&) {}); });
-  EXPECT_TRUE(nan.starts_with(
-      "path.toml:6: stage 1 'shear', step 1 of 50: material SIMSAND returned a number that is "
-      "not finite, component 1 of stressNew: at time "))
+  EXPECT_TRUE(nan.starts_with("path.toml:6: stage 1 'shear', step 0 of 50: no elastic stiffness from the "
+                              "data check; material SIMSAND returned a number that is "
+                              "not finite, component 1 of stressNew: at time "))
       << nan;
   EXPECT_EQ(nan.find("replay"), nan.npos) << "no file unless one is named";
 }

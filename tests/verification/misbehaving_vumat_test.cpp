@@ -155,6 +155,10 @@ TEST(Misbehaving, ReturnsNaNToTheElementDriver) {
     expect_evidence(19, stages, nan + "variable 1 of stateNew");
     expect_evidence(20, stages, nan + "enerInelasNew");
   }
+  expect_stopped(run_path(breaking(18, -1), shear),
+                 {"stage 1 '1', step 0",
+                  "no elastic stiffness from the data check; material misbehaves " + nan, "at time 0 s",
+                  "(replay: simsand element failed_point.toml)"});
 }
 
 TEST(Misbehaving, LeavesAReproducerBesideEachTable) {
