@@ -116,7 +116,7 @@ __attribute__((flatten, noinline)) void try_elastic(const Material<Real>& m, con
   team.each([&](W& w) { end_trial(m, w.trial); });
   team.each([&](W& w) {
     const Mask<Lane> elastic = w.trial.inside & !w.rests;
-    settle(w, elastic_end(m, w.trial), elastic, elastic);
+    settle(w, elastic_end(w.trial), elastic, elastic);
     w.rests |= elastic;
   });
 }

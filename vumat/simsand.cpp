@@ -22,7 +22,7 @@ template <class Real, int N>
 Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>& old,
                                   const SymmetricTensor<Real, N>& strain) {
   auto trial = elastic_trial(m, old, strain);
-  if (trial.inside) return {elastic_end(m, trial)};
+  if (trial.inside) return {elastic_end(trial)};
   auto& in = trial.in;
   in.slopes_start = slopes(m, in.e_start, in.start, start_sin_3theta(trial));
   const auto flow = turn_deviator(m, trial);

@@ -34,7 +34,8 @@ template <class Real, int N> struct Trial {
 /// The deviator that plastic flow leads to.
 template <class Real, int N> struct Flow {
   SymmetricTensor<Real, N> direction;
-  Real q, turn; ///< invariant of `direction`; 2 (1 - cos psi)
+  Real q, turn;      ///< invariant of `direction`; 2 (1 - cos psi)
+  Real elastic_part; ///< of the trial, before the yield surface
 };
 
 // The elastic trial in parts, each with one long function: lanes run every part over many points before the next, so that
@@ -123,13 +124,13 @@ template <class Real, int N> Flow<Real, N> turn_deviator(const MaterialOf<Real>&
   const Real f_start =
       yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, in.eps_d * in.inverse_start);
   const Real tiny_stress = tiny<Scalar<Real>>;
-  const Real elastic_part = min(max(-f_start / max(t.f - f_start, tiny_stress), Real(0)), Real(1));
-  const auto s_yield = add(scale(1 - elastic_part, t.s_old), elastic_part, t.s_trial);
+  Flow<Real, N> flow;
+  flow.elastic_part = min(max(-f_start / max(t.f - f_start, tiny_stress), Real(0)), Real(1));
+  const auto s_yield = add(scale(1 - flow.elastic_part, t.s_old), flow.elastic_part, t.s_trial);
   const Real q_yield = deviatoric_stress(s_yield);
   const Real x =
       plastic_multiplier(t.q, t.shear_modulus, t.pressure.mean_stress * t.peak, m.given.k_p, in.eps_d);
   const Real back = min(Real(1.5) * t.shear_modulus * x / max(q_yield, tiny_stress), Real(1));
-  Flow<Real, N> flow;
   flow.direction = add(t.s_trial, -back, s_yield);
   flow.q = deviatoric_stress(flow.direction);
   in.sin3theta = sin_3theta(flow.direction, flow.q);
@@ -138,13 +139,12 @@ template <class Real, int N> Flow<Real, N> turn_deviator(const MaterialOf<Real>&
   return flow;
 }
 
-template <class Real, int N>
-Substep<Real, N> elastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t) {
+template <class Real, int N> Substep<Real, N> elastic_end(const Trial<Real, N>& t) {
   Substep<Real, N> out;
   out.point = {add_mean(t.s_trial, t.pressure.mean_stress), t.in.e_end, t.in.eps_d, 0};
   out.dissipation = 0;
-  out.error = mean_stiffness_error(m, t.in.start, t.pressure);
-  out.plastic = out.nonconvex = out.error < 0;
+  out.error = 0;
+  out.plastic = out.nonconvex = Real(0) > Real(0);
   return out;
 }
 
@@ -154,6 +154,34 @@ template <class Real> Real plastic_work(const Increment<Real>& in, const Candida
   return max((in.start.mean_stress + end.pressure.mean_stress) * Real(0.5) *
                  (end.multiplier * M * end.mean_share + end.plastic_volumetric),
              Real(0));
+}
+
+/// Estimated error (20) of a plastic substep.
+template <class Real, int N>
+Real plastic_error(const MaterialOf<Real>& m, const Increment<Real>& in, const Flow<Real, N>& flow,
+                   const Candidate<Real>& end) {
+  const Real x = end.multiplier, by_measure = 1 / (end.pressure.measure + m.floor_measure);
+  const Real plastic_share =
+      min(3 * end.shear_modulus * x / max(end.q_trial, Real(tiny<Scalar<Real>>)), Real(1));
+  const Real slope_change = abs(end.slopes.transformation - in.slopes_start.transformation) +
+                            abs(end.slopes.peak - in.slopes_start.peak);
+  const Real growth = abs(end.pressure.measure - in.start.measure) * by_measure;
+  return plastic_share * flow.turn * sqrt(flow.turn) * Real(0.35) +
+         in.stiffening * by_measure *
+             (x * m.given.A_d * slope_change / (2 * (1 - m.given.n)) +
+              (4 * flow.elastic_part + Real(0.3)) * abs(end.plastic_volumetric) * growth);
+}
+
+/// Whether y, with a dilatancy that changes evenly over the substep, falls to a tenth of its lower end in between: the
+/// point would lose its stress on the way.
+template <class Real>
+Mask<Real> dips(const MaterialOf<Real>& m, const Increment<Real>& in, const Candidate<Real>& end) {
+  const Real x = end.multiplier, share = in.eps_d * in.inverse_start;
+  const Real D_start = dilatancy(m, in.slopes_start.transformation, in.slopes_start.peak, share);
+  const Real D_end = dilatancy(m, end.slopes.transformation, end.slopes.peak, end.share);
+  const Real falls = x * D_start - in.volumetric, turns = x * (D_start - D_end);
+  const Real room = in.start.measure - Real(0.1) * min(in.start.measure, end.pressure.measure);
+  return (falls > 0) & (turns > falls) & (2 * turns * room < in.stiffening * falls * falls);
 }
 
 /// The point at the end that `solve` or `newton` found, at positive mean stress.
@@ -169,17 +197,7 @@ Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t,
   const Real factor = select(flow.q > 0, q / max(flow.q, Real(tiny<Scalar<Real>>)), Real(0));
   out.point = {add_mean(scale(factor, flow.direction), p), in.e_end, in.eps_d + x, 0};
   out.dissipation = plastic_work(in, end);
-  const Real plastic_share =
-      min(3 * end.shear_modulus * x / max(end.q_trial, Real(tiny<Scalar<Real>>)), Real(1));
-  const Real slope_change = abs(end.slopes.transformation - in.slopes_start.transformation) +
-                            abs(end.slopes.peak - in.slopes_start.peak);
-  const Real by_measure = 1 / (end.pressure.measure + m.floor_measure);
-  const Real growth = abs(end.pressure.measure - in.start.measure) * by_measure;
-  out.error =
-      mean_stiffness_error(m, in.start, t.pressure) +
-      plastic_share * flow.turn * sqrt(flow.turn) * Real(0.25) +
-      in.stiffening * by_measure *
-          (x * m.given.A_d * slope_change / (2 * (1 - m.given.n)) + 2 * abs(end.plastic_volumetric) * growth);
+  out.error = select(dips(m, in, end), Real(1), plastic_error(m, in, flow, end));
   return out;
 }
 

@@ -116,7 +116,7 @@ TEST(Precision, RandomUpdates) {
       errors.push_back(error / size);
       const double largest_status = std::max(status, status_single);
       if (largest_status < 3) largest_of_one_step = std::max(largest_of_one_step, error / size);
-      // A rounding of the void ratio for each substep, of which there are at most 1024.
+      // A rounding of the void ratio for each substep of lanes, of which 1024 are more than were seen.
       const double substeps = largest_status < 2 ? 1 : 1024;
       ASSERT_NEAR(b.stateNew[k], a.stateNew[k], 2e-7 + 6e-8 * substeps);
     }
