@@ -102,7 +102,7 @@ def draw_laws(results, out):
     for ax in axes:
         ax.set_xlabel("aspect ratio")
         handles = dict(zip(*reversed(ax.get_legend_handles_labels())))
-        ax.legend(handles.values(), handles.keys(), fontsize=8)
+        ax.legend(handles.values(), handles.keys(), fontsize=8, ncols=2, loc="lower right")
         ax.grid(alpha=0.3)
     axes[1].set_ylim(0, 4.5)
     fig.savefig(out / "laws.png", dpi=120)
