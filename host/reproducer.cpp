@@ -46,7 +46,7 @@ bool all_finite(const GuardedArray& a) { // an exponent of ones: infinite or no 
   return finite;
 }
 
-/// An input of point k that is not finite, as no host passes it, after a call that was not compared; empty: none.
+/// An input of point k that is not finite after a call, which as the host gave it was; empty: none.
 std::string overwritten_input(const VumatBlock& b, int k) {
   std::string found;
   each_array(b, [&](const char* name, const GuardedArray& a, bool input) {

@@ -46,7 +46,7 @@ template <class Real> struct Candidate {
 };
 
 /// Change of y, over y, below which the mean of both ends stands for dp / dy, whose differences rounding eats; it is
-/// wrong by less than a tenth of the square of that.
+/// wrong by about a tenth of the square of that for n = 1/2 to 2/3, and to first order where p_min lies in between.
 template <class T> inline constexpr T smallest_difference = sizeof(T) == 8 ? T(1e-3) : T(2e-2);
 
 /// Mean of p^n over a substep in which y changes evenly (13), by (12) dp / dy.
