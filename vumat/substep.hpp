@@ -45,7 +45,10 @@ template <class Real, int N>
 void begin_trial(const MaterialOf<Real>& m, const Point<Real, N>& old, const SymmetricTensor<Real, N>& strain,
                  Trial<Real, N>& t) {
   const Real p_old = trace(old.stress) * Real(1. / 3);
-  t.s_old = scale(select(p_old > 0, Real(1), Real(0)), add_mean(old.stress, -p_old)); // none outlives p = 0
+  const auto s_old = add_mean(old.stress, -p_old);
+  // None outlives p = 0, and what rounding leaves of an isotropic stress has no direction.
+  const Mask<Real> shear = (p_old > 0) & (deviatoric_stress(s_old) > 2 * rounding<Scalar<Real>> * p_old);
+  t.s_old = scale(select(shear, Real(1), Real(0)), s_old);
   Increment<Real>& in = t.in;
   in.volumetric = trace(strain);
   t.e_dev = add_mean(strain, in.volumetric * Real(-1. / 3));
@@ -181,7 +184,8 @@ Mask<Real> dips(const MaterialOf<Real>& m, const Increment<Real>& in, const Cand
   const Real D_end = dilatancy(m, end.slopes.transformation, end.slopes.peak, end.share);
   const Real falls = x * D_start - in.volumetric, turns = x * (D_start - D_end);
   const Real room = in.start.measure - Real(0.1) * min(in.start.measure, end.pressure.measure);
-  return (falls > 0) & (turns > falls) & (2 * turns * room < in.stiffening * falls * falls);
+  return (in.start.measure > 0) & (falls > 0) & (turns > falls) &
+         (2 * turns * room < in.stiffening * falls * falls);
 }
 
 /// The point at the end that `solve` or `newton` found, at positive mean stress.

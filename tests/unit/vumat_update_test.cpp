@@ -188,6 +188,17 @@ TEST(VumatUpdate, BadStatesFailAndChangeNothing) {
   EXPECT_EQ(failed.point.void_ratio, good.void_ratio);
 }
 
+TEST(VumatUpdate, RoundingOfAnIsotropicStressHasNoDirection) {
+  // A third of all mean stresses leave a deviator of 1e-16 p, which is no shear that the flow could turn from.
+  const auto m = material(SS);
+  for (int i = 0; i < 100; ++i) {
+    const double p = 1000 + 0.1 * i;
+    const Point6 isotropic{{{p, p * (1 + 2e-16), p, 0, 0, 1e-16 * p}}, 0.58, 0, 0};
+    const auto after = simsand::update(m, isotropic, {{1e-6, -1e-6, 1e-6, 1e-6, 0, 0}});
+    EXPECT_EQ(after.status, Status::plastic) << p;
+  }
+}
+
 TEST(VumatUpdate, ATrialThatSeriesTakeForElasticIsReturned) {
   // Compression by many times the stress: e_c and e fall by nearly the same, and the slope of e_c changes on the way.
   struct Found {
