@@ -31,11 +31,11 @@ Attempt<Real, N> stressed_substep(const Material<Real>& m, const Point<Real, N>&
   set_tangents(m, trial.critical, trial.density, at_trial);
   const auto first = candidate(m, in, trial.pressure, at_angle(at_trial, in.sin3theta));
   const auto end = solve(m, in, first, out.converged);
-  const bool in_contact = contracts_in_contact(m, in, end);
+  const bool contracts = contracts_at_zero(m, in, end);
   if (end.pressure.measure > 0) {
     static_cast<Substep<Real, N>&>(out) = plastic_end(m, trial, flow, end);
-    out.brief = in_contact;
-  } else if (in_contact) {
+    out.brief = contracts;
+  } else if (contracts && in.volumetric > 0) {
     static_cast<Substep<Real, N>&>(out) = flow_in_contact<Real, N>(m, in, end);
   } else {
     static_cast<Substep<Real, N>&>(out) = parted_end<Real, N>(m, in, end);

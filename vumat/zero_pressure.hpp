@@ -32,14 +32,14 @@ Real zero_pressure_dilatancy(const Material<Real>& m, const Slopes<Real>& M, Rea
   return dilatancy(m, M.transformation, M.peak, mobilised(m, eps_d));
 }
 
-/// Whether grains that touch without pressure contract by shear, at first, more than they are compressed.
+/// Whether grains without pressure contract by shear, at first, more than they are compressed.
 template <class Real>
-bool contracts_in_contact(const Material<Real>& m, const Increment<Real>& in, const Candidate<Real>& end) {
-  return in.start.measure == 0 && in.volumetric > 0 &&
+bool contracts_at_zero(const Material<Real>& m, const Increment<Real>& in, const Candidate<Real>& end) {
+  return in.start.measure == 0 &&
          end.multiplier * zero_pressure_dilatancy(m, in.slopes_start, in.eps_d) > in.volumetric;
 }
 
-/// Such grains to the end of a substep: no gap opens, as shear takes up the compression, x D = d eps_v.
+/// Such grains under compression, to the end of a substep: no gap opens, as shear takes up the compression, x D = d eps_v.
 template <class Real, int N>
 Substep<Real, N> flow_in_contact(const Material<Real>& m, const Increment<Real>& in,
                                  const Candidate<Real>& end) {

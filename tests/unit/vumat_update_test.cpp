@@ -188,6 +188,16 @@ TEST(VumatUpdate, BadStatesFailAndChangeNothing) {
   EXPECT_EQ(failed.point.void_ratio, good.void_ratio);
 }
 
+TEST(VumatUpdate, ContractionAtZeroPressureIsNotLeaptOver) {
+  // Shear at constant volume that would dilate at its end, but contracts first: no stress can arise.
+  const auto m = material(TS);
+  const Tensor6 shear{{-0.021844805076736393, -0.002714531135492053, 0.024559336212228448,
+                       -0.022770329361894947, 0.0069086007978424431, 0.015801482398705866}};
+  const auto after = simsand::update(m, Point6{{}, 0.68711157054898142, 0.0039891691249632228, 0}, shear);
+  EXPECT_EQ(after.status, Status::stress_free);
+  EXPECT_EQ(simsand::trace(after.point.stress), 0);
+}
+
 TEST(VumatUpdate, RoundingOfAnIsotropicStressHasNoDirection) {
   // A third of all mean stresses leave a deviator of 1e-16 p, which is no shear that the flow could turn from.
   const auto m = material(SS);
