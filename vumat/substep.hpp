@@ -161,15 +161,17 @@ template <class Real> Real plastic_work(const Increment<Real>& in, const Candida
 
 /// Estimated error (20) of a plastic substep.
 template <class Real, int N>
-Real plastic_error(const MaterialOf<Real>& m, const Increment<Real>& in, const Flow<Real, N>& flow,
+Real plastic_error(const MaterialOf<Real>& m, const Trial<Real, N>& t, const Flow<Real, N>& flow,
                    const Candidate<Real>& end) {
+  const Increment<Real>& in = t.in;
   const Real x = end.multiplier, by_measure = 1 / (end.pressure.measure + m.floor_measure);
   const Real plastic_share =
       min(3 * end.shear_modulus * x / max(end.q_trial, Real(tiny<Scalar<Real>>)), Real(1));
   const Real slope_change = abs(end.slopes.transformation - in.slopes_start.transformation) +
                             abs(end.slopes.peak - in.slopes_start.peak);
   const Real growth = abs(end.pressure.measure - in.start.measure) * by_measure;
-  return plastic_share * flow.turn * sqrt(flow.turn) * Real(0.35) +
+  const Real stiffer = abs(1 - t.shear_modulus / end.shear_modulus); // than the trial that gave the direction
+  return sqrt(flow.turn) * (plastic_share * flow.turn * Real(0.35) + stiffer * Real(0.4)) +
          in.stiffening * by_measure *
              (x * m.given.A_d * slope_change / (2 * (1 - m.given.n)) +
               (4 * flow.elastic_part + Real(0.3)) * abs(end.plastic_volumetric) * growth);
@@ -201,7 +203,7 @@ Substep<Real, N> plastic_end(const MaterialOf<Real>& m, const Trial<Real, N>& t,
   const Real factor = select(flow.q > 0, q / max(flow.q, Real(tiny<Scalar<Real>>)), Real(0));
   out.point = {add_mean(scale(factor, flow.direction), p), in.e_end, in.eps_d + x, 0};
   out.dissipation = plastic_work(in, end);
-  out.error = select(dips(m, in, end), Real(1), plastic_error(m, in, flow, end));
+  out.error = select(dips(m, in, end), Real(1), plastic_error(m, t, flow, end));
   return out;
 }
 
