@@ -205,8 +205,8 @@ TEST(VumatUpdate, DirectionOfASofterTrialIsCutIntoSubsteps) {
                      0.33813655446441826,
                      0.22590929603669402,
                      0};
-  const Tensor6 strain{{-0.010986566404064356, -0.0092504472537868147, 0.003949340499936488,
-                        -0.0025990607555818183, 0, 0}};
+  const Tensor6 strain{
+      {-0.010986566404064356, -0.0092504472537868147, 0.003949340499936488, -0.0025990607555818183, 0, 0}};
   const int parts = 4096;
   Point6 fine = start;
   for (int i = 0; i < parts; ++i) fine = simsand::update(m, fine, simsand::scale(1. / parts, strain)).point;
