@@ -199,7 +199,7 @@ void add_study(CLI::App& app) {
   command->callback([] { drivers::study_columns(columns); });
 
   static drivers::CauseStudyOptions causes;
-  command = study->add_subcommand("causes", "Why SPH and discrete elements of spheres differ");
+  command = study->add_subcommand("causes", "Why SPH and discrete elements of the same grains differ");
   add_study_options(*command, causes.study);
   command->add_option("--spacing", causes.spacing, "distance of particles, m")
       ->check(CLI::Range(1e-3, 1e-2))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Table, pictures and page of `simsand study causes`: dense spheres, one thing changed at a time.
+"""Table, pictures and page of `simsand study causes`: columns where SPH and DEM differ, one thing changed at a time.
 
     study_causes.py FOLDER --data DATA      FOLDER/COLUMN/CHANGE/result.h5 -> FOLDER/causes.csv, *.png, index.html"""
 import argparse
@@ -21,7 +21,7 @@ from study_data import deviation, read_dem
 from study_page import PAGE, bullets, embedded, page_table, save, write_table
 
 PARAMETERS = ("friction", "dilatancy", "interlocking", "packing")
-BOUNDARY = ("floor", "glue")
+BOUNDARY = ("floor", "rest", "glue")
 SCHEME = ("flowviscosity", "smoothing", "diffusion", "step", "spacing", "dimension")
 VARIANTS = {"-var local_damping 0.1": "local damping 0.1", "-var local_damping 0.7": "local damping 0.7"}
 
@@ -43,7 +43,7 @@ class Change:
 def read_changes(folder):
     """Column -> name -> change; complete runs only."""
     columns = {}
-    for path in sorted(folder.glob("ss_*/*/result.h5")):
+    for path in sorted(folder.glob("*_a*/*/result.h5")):
         try:
             change = Change(path.parent)
         except (OSError, ValueError, KeyError):  # being written
@@ -89,13 +89,13 @@ def matching_angle(changes, other):
 
 
 def parameter_lines(column, changes, other, data):
-    lines, angles = [], triaxial_angles(data, "SS")
+    lines, angles = [], triaxial_angles(data, key_of(column)[0])
     base = changes["base"]
     if found := matching_angle(changes, other):
         angle, radius = found
-        lines.append(f"{column}: DEM's height needs a friction angle of {angle:.1f} degrees; six triaxial tests of the same spheres "
+        lines.append(f"{column}: DEM's height needs a friction angle of {angle:.1f} degrees; {angles.size} triaxial tests of the same grains "
                      f"give {angles.mean():.1f} with a standard deviation of {angles.std(ddof=1):.1f}, so it is "
-                     f"{(angles.mean() - angle) / angles.std(ddof=1):.0f} deviations off. The radius would then be off by "
+                     f"{abs(angles.mean() - angle) / angles.std(ddof=1):.1f} deviations off. The radius would then be off by "
                      f"{100 * (radius / (1 + other.runout) - 1):+.1f} % (with the calibrated angle "
                      f"{100 * ((1 + base.runout) / (1 + other.runout) - 1):+.1f} %)")
     others = [c for c in changes.values() if c.family in PARAMETERS and c.family != "friction"]
@@ -109,10 +109,10 @@ def parameter_lines(column, changes, other, data):
 def boundary_lines(column, changes, other):
     base = changes["base"]
     lines = []
-    for change in (c for c in changes.values() if c.family == "floor"):
+    for change in (c for c in changes.values() if c.family in ("floor", "rest")):
         radius = 100 * ((1 + change.runout) / (1 + other.runout) - 1)
         far = f"radius {radius:+.0f} %" if np.isfinite(radius) else "radius not found: it leaves the sampled radii"
-        lines.append(f"{column}: floor {change.value}: height {100 * (change.height / other.height - 1):+.0f} %, {far} from DEM "
+        lines.append(f"{column}: {change.name.replace('_', ' ')}: height {100 * (change.height / other.height - 1):+.0f} %, {far} from DEM "
                      f"(base {100 * (base.height / other.height - 1):+.0f} and "
                      f"{100 * ((1 + base.runout) / (1 + other.runout) - 1):+.0f} %)")
     return lines
@@ -134,6 +134,10 @@ def model_lines(column, changes, other, variants):
         height, radius = deviation(base, variant)
         lines.append(f"{column}: DEM with {label} in place of 0, all else equal, ends at {variant.height:.3f} and radius "
                      f"{1 + variant.runout:.2f}; SPH is {100 * height:+.1f} and {100 * radius:+.1f} % from it")
+    tops = (other.heights[0] - other.h0) / other.r0
+    lines.append(f"{column}: the grain tops that are DEM's height stand {tops:+.3f} r0 above the nominal height before anything moves; less "
+                 f"this, SPH is {100 * (base.height / (other.height - tops) - 1):+.1f} % from DEM in place of "
+                 f"{100 * (base.height / other.height - 1):+.1f} %")
     slope = np.degrees(np.arctan2(other.height, 1 + other.runout))
     lines.append(f"{column}: the cone from DEM's top to its front has {slope:.1f} degrees, that of SPH "
                  f"{np.degrees(np.arctan2(base.height, 1 + base.runout)):.1f}")
@@ -165,8 +169,8 @@ def effects_figure(rows):
     names.sort(key=lambda name: (name.startswith("friction"), float(name[9:]) if name.startswith("friction") else 0),
                reverse=True)
     columns = list(dict.fromkeys(row["column"] for row in rows))
-    colours = dict(zip(columns, (BLUE, ORANGE, GREEN)))
-    fig, axes = plt.subplots(1, 2, figsize=(11, 0.3 * len(names) + 1.2), sharey=True, layout="constrained")
+    colours = dict(zip(columns, (BLUE, ORANGE, GREEN, PURPLE)))
+    fig, axes = plt.subplots(1, 2, figsize=(11, 0.4 * len(names) + 1.2), sharey=True, layout="constrained")
     for ax, of, error in zip(axes, ("height_change_%", "radius_change_%"), ("height_error_%", "radius_error_%")):
         for n, column in enumerate(columns):
             found = {row["change"]: row for row in rows if row["column"] == column}
@@ -199,7 +203,8 @@ def outlines_figure(columns, dem, variants):
             ax.plot(*surface(variant["outline/radius"], variant["outline/height"][-1]), color=colour, lw=1.5,
                     label=f"DEM, {label}")
         ax.plot(*surface(base.result.radii, base.result.final["outline"]), color=ORANGE, lw=2, label="SPH, calibrated")
-        for name, colour, label in (("friction_8", PURPLE, "SPH, 8 degrees"), ("floor_0.2", BLUE, "SPH, floor 0.2")):
+        for name, colour, label in (("friction_8", PURPLE, "SPH, 8 degrees"), ("floor_0.2", BLUE, "SPH, floor 0.2"),
+                                    ("friction_34", PURPLE, "SPH, 34 degrees")):
             if name in changes:
                 ax.plot(*surface(changes[name].result.radii, changes[name].result.final["outline"]), "-.", color=colour,
                         lw=1.4, label=label)
@@ -213,9 +218,9 @@ def outlines_figure(columns, dem, variants):
     return fig
 
 
-INTRO = """Dense spheres with the calibrated parameters, where SPH and discrete elements (DEM) differ most. One thing is changed at a
-time: parameters of the material, the floor and the smallest stress, the scheme; and, among the discrete elements, time and
-damping. What would have to change by more than the tests allow is not to blame."""
+INTRO = """Columns where SPH with the calibrated parameters and discrete elements (DEM) of the same grains differ most. One thing is
+changed at a time: parameters of the material, the floor, the stress at rest and the smallest stress, the scheme; and, among the discrete
+elements, time and damping. What would have to change by more than the tests allow is not to blame."""
 
 
 def main():
@@ -241,12 +246,12 @@ def main():
         body += f"<h2>{html.escape(title)}</h2>" + bullets(sentences)
         print(title, *sentences, sep="\n  ")
     for name, caption, fig in (
-            ("outlines", "Final outlines of dense spheres", outlines_figure(columns, dem, variants)),
+            ("outlines", "Final outlines", outlines_figure(columns, dem, variants)),
             ("effects", "Effect of each change", effects_figure(rows))):
         save(fig, arguments.folder / f"causes_{name}.png")
         body += embedded(arguments.folder / f"causes_{name}.png", caption)
     page = arguments.folder / "index.html"
-    page.write_text(PAGE.format(title="Why SPH and discrete elements of spheres differ", intro=INTRO,
+    page.write_text(PAGE.format(title="Why SPH and discrete elements differ", intro=INTRO,
                                 body=body + page_table(rows)), encoding="utf-8")
     print(page)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `simsand study causes`: dense spheres with the calibrated set, where SPH and discrete elements differ most, with one
-// thing changed at a time: parameters, boundary, model, scheme. Manual and results: COLUMNS.md.
+// `simsand study causes`: columns with the calibrated set, where SPH and discrete elements of the same grains differ
+// most, with one thing changed at a time: parameters, boundary, scheme. Manual and results: COLUMNS.md.
 #pragma once
 #include "drivers/study/runs.hpp"
 
