@@ -28,7 +28,7 @@ wait "$process" || true
 grep -q "30 runs, 2 of them to do" "$folder/second.log" || fail "not only the two were run: $(head -n 1 "$folder/second.log")"
 [[ -e $run/checkpoint.h5 ]] && fail "the interrupted run did not go on"
 for file in table4.csv dem.csv literal.csv dem_packing.csv drucker_prager.csv cost.csv trends.csv report.md index.html \
-  deposits.png errors.png cost.png dem_all_fields.png dem_heights.png table4_outlines_low.png; do
+  deposits.png errors.png cost.png dem_all_fields.png dem_heights.png; do
   [[ -s $folder/columns/$file ]] || fail "no $file"
 done
 [[ $(wc -l < "$folder/columns/table4.csv") == 4 ]] || fail "table4.csv has not one row for each column"

@@ -124,11 +124,6 @@ def fields_of(study, name):
                          pictures.compared_fields(runs, study.dem))
     body += study.picture(f"{name}_outlines", "Figs. 5 and 6: outlines in time, a = 2, dense",
                           pictures.outlines(runs, study.dem))
-    if not all((shape, "dense", 2.0) in study.dem for shape in pictures.SHAPES):
-        body += study.picture(f"{name}_fields_low", "As Fig. 4 at a = 0.5, where DEM has all three grains",
-                              pictures.compared_fields(runs, study.dem, 0.5))
-        body += study.picture(f"{name}_outlines_low", "As Figs. 5 and 6 at a = 0.5",
-                              pictures.outlines(runs, study.dem, 0.5))
     body += study.picture(f"{name}_heights", "Fig. 7: height in time. Grey: 0.05 and 0.40 s, between which the paper sees the "
                           "fall; dotted: 3 sqrt(h0/g), Lube et al.'s time to rest", pictures.heights(runs, study.dem))
     return body + study.picture(f"{name}_all_fields", "Fig. 10: final displacement of all columns; line: undisturbed zone, moved "
