@@ -48,6 +48,13 @@ class Run:
     def key(self):
         return self.shape, self.packing, self.aspect
 
+    def mass_radius(self, share):
+        """Radius with a share of the mass inside, over r0, at the end."""
+        r, masses = np.abs(self.result.final["position"][:, 0]), self.result.file["particles/mass"][()]
+        order = np.argsort(r)
+        inside = np.cumsum(masses[order]) / masses.sum()
+        return float(r[order][np.searchsorted(inside, share)] / self.r0)
+
     def zone(self):
         """Undisturbed zone of the initial column: levels, and the radius of a disc with the area that stays."""
         start, still = self.result.initial_position, self.result.displacement() < STILL * self.grain
@@ -70,6 +77,7 @@ class Dem:
         self.time, self.heights = self["time"], self["height/surface"]
         self.fronts = self["front/one_grain"]
         self.height, self.runout = self.heights[-1] / self.r0, self.fronts[-1] / self.r0 - 1
+        self.mass95 = self["front/mass95"][-1] / self.r0
         self.undisturbed = float(a["undisturbed_fraction_0.5d"])
         self.collapse_seconds = float(a["cpu_s_collapse"])
         self.seconds = self.collapse_seconds + float(a["cpu_s_deposit"]) + float(a["cpu_s_settle"])

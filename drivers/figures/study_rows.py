@@ -19,10 +19,12 @@ def volume(body, share):
 def dem_part(run, other):
     """Numbers of discrete elements, and errors of the run against them in per cent."""
     height, radius = deviation(run, other)
+    mass95 = run.mass_radius(0.95)
     return {"dem_void_ratio": other.void_ratio, "dem_height": other.height, "dem_runout": other.runout,
             "dem_fall_95_s": fallen(other.time, other.heights, 0.95), "dem_undisturbed": other.undisturbed,
             "dem_undisturbed_cm3": volume(other, other.undisturbed), "height_error_%": 100 * height,
-            "radius_error_%": 100 * radius, "outline_distance_%": 100 * outline_distance(run, other)}
+            "radius_error_%": 100 * radius, "mass95_radius": mass95, "dem_mass95_radius": other.mass95,
+            "mass95_error_%": 100 * (mass95 / other.mass95 - 1), "outline_distance_%": 100 * outline_distance(run, other)}
 
 
 def law_part(aspect, laws):
