@@ -74,9 +74,10 @@ column() {
   kn=${DEM_STIFFNESS:-$(awk "BEGIN { print 1e4 * ($aspect > 1 ? $aspect : 1) }")}
   # Softer still while pouring, which takes the larger part of the time: 2.2 times fewer steps.
   pouring_kn=$(awk "BEGIN { print $kn / 5 }")
-  # Rest comes at 3 sqrt(h/g) in the laboratory, here 0.15 to 0.43 s; spheres roll on longer.
-  end=${DEM_END:-$(awk "BEGIN { end = $aspect > 2 ? 1.0 : $aspect > 1 ? 0.8 : 0.6
-                                print end - ($spheres > 1 ? 0.2 : 0) }")}
+  # Rest comes at 3 sqrt(h/g) in the laboratory, here 0.15 to 0.43 s; spheres roll on longer, and dense clumps at 1
+  # give way slowly (0.4 s, an earlier end, cut their fall short).
+  end=${DEM_END:-$(awk "BEGIN { end = $aspect > 2 ? 1.0 : $aspect > 1 || ($aspect > 0.5 && $spheres > 1) ? 0.8 : 0.6
+                                print end - ($spheres > 1 && $aspect != 1 ? 0.2 : 0) }")}
   # To be cut: 5 mm, or 5 % of the height.
   poured=$(awk "BEGIN { h = $height; h += h > 0.1 ? 0.05 * h : 0.005
                         print int($solid * 3.14159265 * 0.05^2 * h / 13.455e-9) }")

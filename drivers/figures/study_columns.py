@@ -25,7 +25,7 @@ OTHERS = {"literal": "Sensitivity: Table 2 read literally, the printed porosity 
           "dem_packing": "Sensitivity: the void ratio of the DEM columns in place of Table 2's (calibrated)",
           "drucker_prager": "The simpler model: Drucker-Prager, critical friction angle of the calibrated set, no dilation"}
 SHORT = ("shape", "packing", "a", "void_ratio", "height", "dem_height", "height_error_%", "runout", "dem_runout",
-         "radius_error_%", "outline_distance_%", "time_to_rest_s", "fall_95_s", "dem_fall_95_s", "undisturbed",
+         "radius_error_%", "mass95_error_%", "outline_distance_%", "time_to_rest_s", "fall_95_s", "dem_fall_95_s", "undisturbed",
          "dem_undisturbed", "undisturbed_cm3", "Lube 2004 height", "Lajeunesse 2004 height", "Lube 2004 runout",
          "Lajeunesse 2004, second reading runout", "cpu_s", "dem_cost_over_ours")
 COST = ("set", "spacing_mm", "columns", "columns_with_dem", "mean_height_error_%", "mean_radius_error_%", "to_1mm_height_%",
@@ -47,7 +47,7 @@ class Study:
         self.shown = {name: found for name, found in self.shown.items() if found[1]}
         self.rows = {name: rows_of(columns, self.dem, self.laws) for name, (_, columns) in self.shown.items()}
         self.costs = cost_rows(self.runs, self.dem, self.laws)
-        self.text = ""  # the same report without pictures, in Markdown
+        self.text = ""  # the same report in Markdown
 
     def alike(self, first, second):
         """Rows of two sets at one spacing: that with most columns in both, the finest of those."""
@@ -76,6 +76,7 @@ class Study:
         path = self.folder / f"{name}.png"
         save(fig, path, dpi)
         plt.close(fig)
+        self.text += f"\n![{caption}]({name}.png)\n\n"
         return embedded(path, caption)
 
 

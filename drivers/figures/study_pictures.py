@@ -70,7 +70,8 @@ def deposits(families, laws):
         column[0].set_title(title, fontsize=10)
         for ax, label in zip(column, ("final height $h_f/r_0$", "runout $(r_f - r_0)/r_0$")):
             aspect_axis(ax, label if ax is axes[0, 0] or ax is axes[1, 0] else "")
-            ax.set_ylim(bottom=0)
+    for ax in axes[:, 0]:  # after all families: a limit set ends the scaling
+        ax.set_ylim(bottom=0)
     lines = {l.get_label(): l for ax in axes.flat for l in ax.get_lines()}
     axes[0, -1].legend(lines.values(), lines.keys(), loc="upper left", bbox_to_anchor=(1.02, 1.02), fontsize=8.5)
     return fig
