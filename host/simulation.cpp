@@ -41,8 +41,7 @@ template <class Geometry> double wall_travel(const Simulation<Geometry>& s) {
 
 template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
   move_gate(s.mirrors, s.scene, s.time);
-  if (!s.surfaces.empty())
-    s.surfaces = surfaces_at<Geometry::dimension>(s.walls, s.scene.geometry, s.time, s.dt_before);
+  if (!s.surfaces.empty()) find_surfaces(s.walls, s.scene.geometry, s.time, s.dt_before, s.surfaces);
   const double half_skin = 0.5 * s.scene.numerics.skin * s.scene.spacing;
   if (s.rebuilds == 0 || s.moved + wall_travel(s) > half_skin)
     update_lists(s);
@@ -135,7 +134,7 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   s.mirrors = scene_mirrors(scene);
   s.walls = all_walls(scene);
   s.loads.resize(s.walls.size());
-  if (!scene.walls.empty()) s.surfaces = surfaces_at<Geometry::dimension>(s.walls, scene.geometry, 0, 0);
+  if (!scene.walls.empty()) find_surfaces(s.walls, scene.geometry, 0, 0, s.surfaces);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
   s.blocks.failure_state = scene.failure_state;
   s.blocks.tolerance = scene.numerics.wave_speed_tolerance;

@@ -3,7 +3,7 @@
 #pragma once
 #include "host/gradient.hpp"
 #include "host/passes.hpp"
-#include "host/surfaces.hpp"
+#include "host/wall_room.hpp"
 
 namespace host {
 
@@ -36,6 +36,7 @@ template <class Geometry> struct Simulation {
   double initial_potential_energy = 0;
   std::array<double, stage_names.size()> stage_seconds{};
   std::vector<ClusterMotion> motions{}; ///< of the last step
+  WallRoom<Geometry::dimension> wall_room{};
 };
 
 /// The scene at time 0. Throws std::runtime_error for a scene without particles.

@@ -113,9 +113,9 @@ std::vector<Wall> all_walls(const Scene& scene) {
 }
 
 template <int D>
-std::vector<Surface<D>> surfaces_at(const std::vector<Wall>& walls, GeometryKind geometry, double time,
-                                    double dt) {
-  std::vector<Surface<D>> list;
+void find_surfaces(const std::vector<Wall>& walls, GeometryKind geometry, double time, double dt,
+                   std::vector<Surface<D>>& list) {
+  list.clear();
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const Wall& wall = walls[w];
     Builder<D> build{list, {}, {}};
@@ -139,10 +139,9 @@ std::vector<Surface<D>> surfaces_at(const std::vector<Wall>& walls, GeometryKind
       list.push_back(plane);
     }
   }
-  return list;
 }
 
-template std::vector<Surface<2>> surfaces_at(const std::vector<Wall>&, GeometryKind, double, double);
-template std::vector<Surface<3>> surfaces_at(const std::vector<Wall>&, GeometryKind, double, double);
+template void find_surfaces(const std::vector<Wall>&, GeometryKind, double, double, std::vector<Surface<2>>&);
+template void find_surfaces(const std::vector<Wall>&, GeometryKind, double, double, std::vector<Surface<3>>&);
 
 } // namespace host

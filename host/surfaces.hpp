@@ -25,10 +25,18 @@ template <int D> struct Surface {
 /// Floor and gate, where the scene has them, then its walls.
 std::vector<Wall> all_walls(const Scene& scene);
 
-/// All surfaces at `time`, s, with their mean velocity over the `dt` before it (0: velocity 0).
+/// Puts all surfaces at `time`, s, with their mean velocity over the `dt` before it (0: velocity 0), into `list`.
+template <int D>
+void find_surfaces(const std::vector<Wall>& walls, GeometryKind geometry, double time, double dt,
+                   std::vector<Surface<D>>& list);
+
 template <int D>
 std::vector<Surface<D>> surfaces_at(const std::vector<Wall>& walls, GeometryKind geometry, double time,
-                                    double dt);
+                                    double dt) {
+  std::vector<Surface<D>> list;
+  find_surfaces(walls, geometry, time, dt, list);
+  return list;
+}
 
 /// Distance from the surface (a plane or mantle without end), m, positive on the side of the sand.
 template <int D, class P> double distance(const Surface<D>& s, const P& x) {

@@ -3,6 +3,8 @@
 #include "host/geometry.hpp"
 #include "host/wall_forces.hpp"
 #include <algorithm>
+#include <omp.h>
+#include <span>
 
 namespace host {
 namespace {
@@ -28,7 +30,7 @@ template <int D> struct Traveller {
   double mass;
   Point<D> from, x, before, v;
   Work& work;
-  std::vector<WallLoad>& loads;
+  std::span<WallLoad> loads;
 
   double energy() const { return 0.5 * mass * dot(v, v); }
 };
@@ -57,30 +59,22 @@ Point<D> rub(const Wall& wall, const Surface<D>& s, const Point<D>& n, double no
   return change;
 }
 
-/// The surfaces near a particle, and what each does to its velocity; storage that serves many particles.
-template <int D> struct Pushes {
-  std::vector<const Surface<D>*> surface;
-  std::vector<int> number; ///< of the surface
-  std::vector<double> distance, shares;
-  std::vector<Point<D>> normal, change;
-  SplitPush<D> split;
-
-  void find(const std::vector<Surface<D>>& surfaces, const Point<D>& x, double reach) {
-    surface.clear();
-    number.clear();
-    distance.clear();
-    normal.clear();
-    for (const auto& s : surfaces) {
-      const double d = host::distance(s, x);
-      if (d < 0 || d > reach || !beside_shell(s, x)) continue;
-      if (s.obstacle && body_distance(s, x) > reach) continue;
-      surface.push_back(&s);
-      number.push_back(int(&s - surfaces.data()));
-      distance.push_back(d);
-      normal.push_back(normal_of(s, x));
-    }
+template <int D>
+void find_near(const std::vector<Surface<D>>& surfaces, const Point<D>& x, double reach, Pushes<D>& near) {
+  near.surface.clear();
+  near.number.clear();
+  near.distance.clear();
+  near.normal.clear();
+  for (const auto& s : surfaces) {
+    const double d = distance(s, x);
+    if (d < 0 || d > reach || !beside_shell(s, x)) continue;
+    if (s.obstacle && body_distance(s, x) > reach) continue;
+    near.surface.push_back(&s);
+    near.number.push_back(int(&s - surfaces.data()));
+    near.distance.push_back(d);
+    near.normal.push_back(normal_of(s, x));
   }
-};
+}
 
 /// Who pushes how much: fills `shares` and `change`, which add up to `push`.
 template <class Geometry, int D = Geometry::dimension>
@@ -185,7 +179,7 @@ void touch_all(const WallsInStep<D>& walls, int planes, const Scene& scene, Trav
 
 template <class Geometry, int D = Geometry::dimension>
 void move_one(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, double kick, ClusterMotion& motion,
-              std::vector<WallLoad>& loads, Pushes<D>& near) {
+              std::span<WallLoad> loads, Pushes<D>& near) {
   auto& p = s.particles;
   Work& work = motion.work;
   Traveller<D> t{p.mass[i], {}, {}, {}, {}, work, loads};
@@ -197,7 +191,7 @@ void move_one(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, doubl
     t.v[a] = t.before[a] + kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
                                    p.wall_acceleration[a][i] - (a == D - 1 ? s.scene.gravity : 0));
   }
-  near.find(walls.now, t.from, s.kernel.support);
+  find_near(walls.now, t.from, s.kernel.support, near);
   if (near.surface.empty()) { // behind an edge; walls out of reach do not push
     add_to(t.v, -1, push);
     push = {};
@@ -248,25 +242,30 @@ template <class Geometry> ClusterMotion move_among_walls(Simulation<Geometry>& s
   constexpr int block = 512;
   auto& p = s.particles;
   const int count = p.count, blocks = (count + block - 1) / block;
-  const auto ahead = surfaces_at<D>(s.walls, s.scene.geometry, s.time + s.dt, s.dt);
-  const WallsInStep<D> walls{s.walls, s.surfaces, ahead};
-  std::vector<ClusterMotion> motion(blocks);
-  std::vector<std::vector<WallLoad>> load(blocks, std::vector<WallLoad>(s.loads.size()));
+  const std::size_t wall_count = s.loads.size();
+  auto& room = s.wall_room;
+  find_surfaces(s.walls, s.scene.geometry, s.time + s.dt, s.dt, room.ahead);
+  const WallsInStep<D> walls{s.walls, s.surfaces, room.ahead};
+  room.pushes.resize(std::size_t(omp_get_max_threads()));
+  room.motion.assign(blocks, {});
+  room.load.assign(blocks * wall_count, {});
   update_acceleration(p, s.kernel, s.lists, s.records, s.scene);
 #pragma omp parallel
   {
-    Pushes<D> near;
+    auto& near = room.pushes[omp_get_thread_num()];
 #pragma omp for schedule(static)
-    for (int b = 0; b < blocks; ++b)
+    for (int b = 0; b < blocks; ++b) {
+      const auto loads = std::span(room.load).subspan(b * wall_count, wall_count);
       for (int i = b * block; i < std::min((b + 1) * block, count); ++i) {
-        move_one(s, i, walls, 0.5 * (s.dt_before + s.dt), motion[b], load[b], near);
+        move_one(s, i, walls, 0.5 * (s.dt_before + s.dt), room.motion[b], loads, near);
         for (std::size_t c = 0; c < p.stress.size(); ++c) p.stress[c][i] += s.dt * p.stress_diffusion[c][i];
       }
+    }
   }
   ClusterMotion all;
   for (int b = 0; b < blocks; ++b) {
-    all.add(motion[b]);
-    for (std::size_t w = 0; w < s.loads.size(); ++w) s.loads[w].add(load[b][w]);
+    all.add(room.motion[b]);
+    for (std::size_t w = 0; w < wall_count; ++w) s.loads[w].add(room.load[b * wall_count + w]);
   }
   return all;
 }

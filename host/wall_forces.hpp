@@ -8,12 +8,6 @@
 
 namespace host {
 
-/// Accelerations of one particle, m/s2.
-template <int D> struct SplitPush {
-  std::vector<Point<D>> by_surface; ///< one for each surface asked for
-  Point<D> by_corners{};
-};
-
 /// Splits the push on particle `i` between `near`, numbers of surfaces.
 template <class Geometry>
 void split_push(const Simulation<Geometry>& simulation, int i, const std::vector<int>& near,

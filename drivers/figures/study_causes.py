@@ -210,7 +210,7 @@ def outlines_figure(columns, dem, variants):
                         lw=1.4, label=label)
         ax.set_aspect("equal")
         ax.set_xlim(0, 175)
-        ax.set_ylim(0, 1.15 * MM * base.r0 * base.height)
+        ax.set_ylim(0, 1.1 * max(line.get_ydata().max() for line in ax.get_lines()))
         ax.set_ylabel("$z$ / mm")
         ax.set_title("{} {}, $a$ = {:g}".format(*key_of(column)), fontsize=10)
         ax.legend(fontsize=8, loc="upper right")

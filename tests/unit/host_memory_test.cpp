@@ -3,7 +3,7 @@
 // none.
 #include "host/geometry.hpp"
 #include "host/simulation.hpp"
-#include "tests/verification/scenes.hpp"
+#include "tests/verification/walls_fixture.hpp"
 #include <atomic>
 #include <cstdlib>
 #include <malloc.h>
@@ -62,8 +62,8 @@ TEST(Memory, OfAParticleOfTheWholeColumnInThreeDimensions) {
               memory.data / count, memory.lists / count, growth / count);
 }
 
-template <class Geometry> void expect_no_allocation(const tests::ColumnCase& c) {
-  auto s = start_simulation<Geometry>(tests::column_scene(c, "allocation"));
+template <class Geometry> void expect_no_allocation(const Scene& scene) {
+  auto s = start_simulation<Geometry>(scene);
   for (int k = 0; k < 200; ++k) step(s); // all that grows has grown
   int steps = 0;
   for (int k = 0; k < 100; ++k) {
@@ -79,10 +79,22 @@ template <class Geometry> void expect_no_allocation(const tests::ColumnCase& c) 
 TEST(Memory, AStepAllocatesNothing) {
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  expect_no_allocation<PlaneStrain>({.geometry = "plane_strain", .spacing = 0.004});
-  expect_no_allocation<Axisymmetric>({.spacing = 0.004});
-  expect_no_allocation<ThreeDimensional>(
-      {.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007});
+  expect_no_allocation<PlaneStrain>(
+      tests::column_scene({.geometry = "plane_strain", .spacing = 0.004}, "allocation"));
+  expect_no_allocation<Axisymmetric>(tests::column_scene({.spacing = 0.004}, "allocation"));
+  expect_no_allocation<ThreeDimensional>(tests::column_scene(
+      {.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007}, "allocation"));
+  expect_no_allocation<ThreeDimensional>(tests::wall_scene(
+      {.geometry = "three_dimensional\"\nsector = \"full",
+       .column = "radius = 0.05\nheight = 0.05",
+       .material = tests::sand("TS", 0.4451),
+       .walls =
+           "[[wall]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction "
+           "= "
+           "0.5\n[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.05\nlower = "
+           "0\nfriction = 0\nvelocity = [0, 0, 1.6]\n",
+       .spacing = 0.007},
+      "allocation"));
   omp_set_num_threads(threads);
 }
 
