@@ -172,11 +172,12 @@ double abaqus_particle_count(const host::Scene& scene, double spacing) {
 }
 
 AbaqusModel make_abaqus_model(const host::Scene& scene, double spacing) {
-  // A deck of a cylinder holds the whole of it, whichever way the scene describes it.
-  if (scene.geometry == host::GeometryKind::three_dimensional && scene.sector != host::Sector::full)
-    throw std::runtime_error("an ABAQUS deck holds the whole column: expected sector = \"full\" in [scene]");
+  // A deck of a cylinder holds the whole of it, whichever way the scene describes it: by its section or a sector.
   if (!scene.walls.empty())
     throw std::runtime_error("an ABAQUS deck has a floor and one retaining wall: expected no [[wall]]");
+  if (scene.material.properties.empty())
+    throw std::runtime_error("an ABAQUS user material has constants: expected at least one number in the key "
+                             "'properties' of [material]");
   AbaqusModel model;
   place_particles(scene, spacing, model);
   for (auto& layer : model.layers) layer.state = initial_state(scene, model, layer);

@@ -34,6 +34,8 @@ void put_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
   host::put_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
   host::put_general(motion.gradient_old, k, n, shear, b.gradient_old);
   host::put_general(motion.gradient_new, k, n, shear, b.gradient_new);
+  b.kept_gradient.resize(n);
+  b.kept_gradient[k] = motion.gradient_new;
   for (int s = 0; s < shear; ++s) b.spin_increment[s * n + k] = motion.spin[s];
 }
 
@@ -141,8 +143,7 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
     call({end, end, dt}, first, b);
     for (int k = 0; k < n; ++k) {
       answers.push_back(taken(start(first + k), increments[first + k], dt, k, b));
-      if (material.frame == host::Frame::green_naghdi)
-        answers.back().gradient = host::general_at(b.gradient_new, k, n, shear);
+      if (material.frame == host::Frame::green_naghdi) answers.back().gradient = b.kept_gradient[k];
     }
   }
   return answers;

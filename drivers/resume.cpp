@@ -97,7 +97,8 @@ fs::path previous_checkpoint_path(const fs::path& folder) {
   return folder / "checkpoint_previous.h5";
 }
 
-std::optional<Resumption> find_resumption(const std::string& what, const std::string& given_folder) {
+std::optional<Resumption> find_resumption(const std::string& what, const std::string& given_folder,
+                                          const std::vector<std::string>& settings) {
   if (!fs::exists(what)) throw std::runtime_error(fmt::format("{}: no such file or folder", what));
   const bool is_scene = !fs::is_directory(what) && fs::path(what).extension() != ".h5";
   Resumption resumption;
@@ -105,16 +106,22 @@ std::optional<Resumption> find_resumption(const std::string& what, const std::st
   fs::path folder;
   std::string scene_name = what;
   if (is_scene) {
-    resumption.scene = read_scene(what);
+    resumption.scene = read_scene(what, settings);
     expected = resumption.scene.resolved;
     folder = given_folder.empty() ? resumption.scene.output_folder : given_folder;
   } else {
+    if (!settings.empty())
+      throw std::runtime_error(
+          fmt::format("--set {}: expected a scene file beside it, found {}, which has its scene with it",
+                      settings.front(), what));
     folder = folder_of(what);
     scene_name = (folder / "scene.toml").string();
     expected = stored_text(scene_name);
   }
   if (host::is_complete_result(folder / "result.h5")) {
     remove_checkpoints(folder);
+    fs::remove_all(
+        host::parts_folder(folder / "result.h5")); // of a run that was killed while it became complete
     return {};
   }
   const auto found = latest_readable(folder);

@@ -18,11 +18,12 @@ struct Resumption {
 };
 
 /// Finds the run by `what`: the folder of its results, a file in it, or its scene file (which must not have
-/// changed); `folder`, unless empty, is where a scene file's results are instead of its output.folder. Empty
+/// changed, nor `settings`, key=value, which go with a scene file only); `folder`, unless empty, is where a scene file's results are instead of its output.folder. Empty
 /// if the run is complete. Throws std::runtime_error, one line, if there is no checkpoint or none that can be
 /// read, if it is of another scene or of another version. Warns of a checkpoint that cannot be read while the
 /// one before can, of a scene beside the results that cannot be read, of a changed material library and of another compiler.
-std::optional<Resumption> find_resumption(const std::string& what, const std::string& folder);
+std::optional<Resumption> find_resumption(const std::string& what, const std::string& folder,
+                                          const std::vector<std::string>& settings = {});
 
 /// Header of a checkpoint of `scene`, without time, steps and particles.
 host::CheckpointHeader header_of(const host::Scene& scene);

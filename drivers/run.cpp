@@ -144,23 +144,23 @@ template <class Geometry>
 void check_latest(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
   const Sample& last = recorder.samples().back();
   if (last.time != s.time) return;
-  const double scale = host::energy_scale(s);
+  const double given = host::given_by_walls(s), scale = host::energy_scale(s) + std::max(given, 0.0);
   if (scale <= 0) return;
-  const double given = host::given_by_walls(s.scene, last.work);
   const double made = last.kinetic + last.potential - s.initial_potential_energy - given;
-  host::check_energy(s.particles, s.time, made / scale, last.imbalance);
+  host::check_energy(s.particles, s.time, made / scale, last.imbalance * host::energy_scale(s) / scale);
   host::check_work(s);
 }
 
 /// Warns of energy that pairs made and viscosity took: too little to end the run, too much to pass unseen.
 template <class Geometry>
 void warn_of_pairs(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
-  const auto by_stress = [](const Sample& sample) { return sample.work.stress; };
-  const Sample& worst = std::ranges::max(recorder.samples(), {}, by_stress);
-  const double share = worst.work.stress / host::energy_scale(s);
+  const auto gift = [](const Sample& sample) { return host::gift_of_pairs(sample.work); };
+  const Sample& worst = std::ranges::max(recorder.samples(), {}, gift);
+  const double share = gift(worst) / host::energy_scale(s);
   if (!host::walls_rest(s.scene) || share <= host::suspect_pair_gift) return;
   spdlog::warn(
-      "{}: until {:.4g} s the stress of pairs had given the sand {:.3g} of the initial potential energy "
+      "{}: until {:.4g} s the stress of pairs and walls had given the sand {:.3g} of the initial potential "
+      "energy "
       "(beyond {} it is suspect), which the artificial viscosity took; compare with a run at another "
       "scene.spacing or numerics.step_factor",
       s.scene.output_folder, worst.time, share, host::suspect_pair_gift);

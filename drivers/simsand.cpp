@@ -30,8 +30,9 @@
 
 namespace {
 
-void resume_run(const std::string& what, const std::string& folder, drivers::RunOptions options) {
-  const auto found = drivers::find_resumption(what, folder);
+void resume_run(const std::string& what, const std::string& folder, const std::vector<std::string>& settings,
+                drivers::RunOptions options) {
+  const auto found = drivers::find_resumption(what, folder, settings);
   if (!found) {
     fmt::print("{}: the run is complete\n", what);
     return;
@@ -111,7 +112,7 @@ void add_run(CLI::App& app) {
       drivers::run_to_tolerance(tolerance, options);
       return;
     }
-    if (resume) return resume_run(file, folder, options);
+    if (resume) return resume_run(file, folder, settings, options);
     auto scene = drivers::read_scene(file, settings);
     if (!folder.empty()) scene.output_folder = folder;
     if (plan) {

@@ -10,7 +10,7 @@
 namespace host {
 namespace {
 
-constexpr int checkpoint_version = 3;
+constexpr int checkpoint_version = 4;
 constexpr auto kind = "checkpoint_version"; ///< attribute that only checkpoints have
 constexpr hsize_t values_per_chunk = 65536;
 

@@ -33,6 +33,7 @@ template <class Geometry, class F> void each_stored_item(Simulation<Geometry>& s
     for (int a = 0; a < 3; ++a) item(fmt::format("{}impulse_{}", name, a), load.impulse[a]);
     item(name + "normal", load.normal);
     item(name + "work", load.work);
+    item(name + "given", load.given);
   }
 
   item("particle_id", s.particles.id);

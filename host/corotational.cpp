@@ -40,6 +40,7 @@ void enter_corotational(const Particles<Geometry>& p, const BlockGradient<Geomet
   constexpr int shear = Geometry::shear_components;
   const int n = b.points;
   b.rotation_new.resize(n);
+  b.kept_gradient.resize(n);
   for (int k = 0; k < n; ++k) {
     const Tensor strain = symmetric_at(b.strain_increment, k, n, shear);
     const auto motion = carried_along(gradient_of(p, first + k), strain + dt * spin_of(gradient, k));
@@ -52,6 +53,7 @@ void enter_corotational(const Particles<Geometry>& p, const BlockGradient<Geomet
     put_general(motion.gradient_new, k, n, shear, b.gradient_new);
     for (int s = 0; s < shear; ++s) b.spin_increment[s * n + k] = motion.spin[3 - shear + s]; // in plane: 21
     b.rotation_new[k] = motion.rotation_new;
+    b.kept_gradient[k] = motion.gradient_new;
   }
 }
 
@@ -64,8 +66,10 @@ void leave_corotational(VumatBlock& b) {
 }
 
 template <class Geometry> void keep_deformation(const VumatBlock& b, int first, Particles<Geometry>& p) {
-  for (std::size_t c = 0; c < p.deformation_gradient.size(); ++c)
-    std::copy_n(&b.gradient_new[c * b.points], b.points, &p.deformation_gradient[c][first]);
+  for (std::size_t c = 0; c < p.deformation_gradient.size(); ++c) {
+    const auto [row, column] = place(int(c), Geometry::shear_components);
+    for (int k = 0; k < b.points; ++k) p.deformation_gradient[c][first + k] = b.kept_gradient[k](row, column);
+  }
 }
 
 template void carry_deformation(Particles<PlaneStrain>&);

@@ -19,8 +19,9 @@ inline constexpr double largest_made_energy = 0.02, largest_unclosed_energy = 0.
 /// Largest work that may have been done on the sand, over the initial potential energy, by artificial viscosity, which
 /// only takes, and by a wall at rest, whose images without slip give up to 0.008 in sound collapses.
 inline constexpr double largest_viscous_gift = 1e-3, largest_wall_gift = 0.03;
-/// The same by the pairs where no wall moves. Sand gives back what it was loaded with, less than a thousandth. A run
-/// warns of the first number and ends at the second.
+/// The same by pairs and walls together, less what moving walls put in. Alone neither tells: at an impact images take what
+/// pairs give, and give it back. Sand gives back what it was loaded with, less than a thousandth. A run warns of the first
+/// number and ends at the second.
 inline constexpr double suspect_pair_gift = 0.01, largest_pair_gift = 0.05;
 
 struct UnsoundMotion : std::runtime_error {
@@ -45,9 +46,11 @@ double lowest_level(const Scene& scene);
 /// Potential energy above that height at the start, J: what energies are compared with.
 template <class Geometry> double energy_scale(const Simulation<Geometry>& simulation);
 
-/// What walls may have given of the work that is booked, J: nothing unless one of the scene's list moves. The gate, smooth
-/// and upright, gives none.
-double given_by_walls(const Scene& scene, const Work& work);
+/// What moving walls have put in, J. The gate, smooth and upright, gives nothing.
+template <class Geometry> double given_by_walls(const Simulation<Geometry>& simulation);
+
+/// Work of pairs and walls, J, that is to be compared with the largest gift: before what walls put in is taken off.
+double gift_of_pairs(const Work& work);
 
 /// True if no wall of the scene's list moves.
 bool walls_rest(const Scene& scene);

@@ -51,9 +51,10 @@ struct VumatBlock {
   GuardedArray internal_energy_old, internal_energy_new;
   GuardedArray inelastic_energy_old, inelastic_energy_new;
   GuardedArray temperature_old, temperature_new, field_old, field_new;
-  GuardedArray dt;                           ///< argument 10: an array since 2023
-  std::vector<Tensor> rotation_new;          ///< R at the end, for the caller; not shown to the material
-  std::vector<int> elements;                 ///< user element number of each point; 1, 2, ... unless filled
+  GuardedArray dt; ///< argument 10: an array since 2023
+  std::vector<Tensor> rotation_new,
+      kept_gradient;         ///< R and F at the end, for the caller; not shown to the material
+  std::vector<int> elements; ///< user element number of each point; 1, 2, ... unless filled
   std::array<char, vumat::name_length> name; ///< of the material, as it is passed
   GuardedIntegers info;                      ///< argument 7, written anew for each call, as is the name
   GuardedText passed_name;

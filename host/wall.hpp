@@ -44,10 +44,13 @@ struct WallLoad {
   WallVector impulse{}; ///< N s (plane strain: per metre): force of the sand on the wall, over time
   double normal = 0;    ///< N s, the normal part, summed as a number: pressure times area over time
   double work = 0;      ///< J, done on the sand
+  double given =
+      0; ///< J, what keeps the wall on its prescribed path has put in: its force times its own motion
   void add(const WallLoad& other) {
     for (int a = 0; a < 3; ++a) impulse[a] += other.impulse[a];
     normal += other.normal;
     work += other.work;
+    given += other.given;
   }
 };
 

@@ -35,10 +35,12 @@ template <int D> struct Traveller {
   double energy() const { return 0.5 * mass * dot(v, v); }
 };
 
-/// Books a change of velocity by a wall, along `n` and across.
+/// Books a change of velocity by a surface of a wall, along `n` and across.
 template <int D>
-void book(Traveller<D>& t, int wall, const Point<D>& n, const Point<D>& change, double work_on_sand) {
-  auto& load = t.loads[wall];
+void book(Traveller<D>& t, const Surface<D>& surface, const Point<D>& n, const Point<D>& change,
+          double work_on_sand) {
+  auto& load = t.loads[surface.wall];
+  load.given += t.mass * dot(change, surface.velocity);
   for (int a = 0; a < D; ++a) load.impulse[a] -= t.mass * change[a];
   load.normal += t.mass * dot(n, change);
   load.work += work_on_sand;
@@ -146,7 +148,7 @@ bool touch(const WallsInStep<D>& walls, std::size_t s, double gap, double gravit
   ++t.work.guarded;
   t.work.wall += stop_work;
   t.work.friction += all - stop_work;
-  book(t, surface.wall, n, change, all);
+  book(t, surface, n, change, all);
   return true;
 }
 
@@ -209,7 +211,7 @@ void move_one(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, doubl
     t.x[a] = t.from[a] + s.dt * t.v[a];
   }
   for (std::size_t k = 0; k < near.surface.size(); ++k)
-    book(t, near.surface[k]->wall, near.normal[k], near.change[k], dot(impulse, near.change[k]));
+    book(t, *near.surface[k], near.normal[k], near.change[k], dot(impulse, near.change[k]));
   touch_all(walls, int(s.mirrors.size()), s.scene, t);
   Point<D> travel = t.x;
   add_to(travel, -1, t.from);

@@ -72,8 +72,12 @@ void store_update(const Update<Real, N>& result, const SymmetricTensor<Real, N>&
 }
 
 template <class Real, int N> void run_point(const Material<Real>& m, const Block<Real>& b, Task task, int k) {
-  const auto strain = load<Real, N>(b.strain, b.points, k);
-  auto point = load_point<Real, N>(m, b, k);
+  // A first call or an annealing makes the point from the stress as it was given, and has no strain.
+  auto given = load_point<Real, N>(m, b, k), point = given;
+  given.stress = load<Real, N>(b.stress_old, b.points, k);
+  const auto strain =
+      task == Task::annealing ? SymmetricTensor<Real, N>{} : load<Real, N>(b.strain, b.points, k);
+  if (!admissible(given, strain)) return fail(b, N, k, Real(int(Status::bad_input)));
   if (task == Task::annealing) {
     store_point(initial_point(m, point.stress, point.void_ratio), Status::elastic, b, k);
     *state(b.state_new, b, statev::nonconvex_updates, k) = 0;

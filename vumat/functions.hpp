@@ -114,10 +114,17 @@ template <class Real> Real bulk_modulus(const MaterialOf<Real>& m, Real e, const
   return m.given.K0 * m.given.p_at * void_ratio_factor(e) * p.stiffness; // (1)
 }
 
-/// Void ratio after a volumetric strain, compression positive: 1 + e shrinks by its exponential (10).
+/// Volumetric strain up to which the void ratio follows a series.
+template <class Real> inline constexpr Real largest_series_strain = Real(0.3125);
+
+/// Void ratio after a volumetric strain, compression positive: 1 + e shrinks by its exponential (10). Lanes have it
+/// up to the largest strain of the series.
 template <class Real> Real void_ratio_after(Real e, Real volumetric_strain) {
   // (exp(x) - 1) = x / (1 - x/2 + x^2/12 - ...), relative error below x^8 / 1e6 for |x| < 0.3; reversible.
   const Real x = -volumetric_strain, t = x * x;
+  if constexpr (std::is_floating_point_v<Real>)
+    if (!(std::abs(x) <= largest_series_strain<Real>))
+      return std::max(e + (1 + e) * std::expm1(x), smallest_void_ratio<Real>);
   const Real denominator =
       1 - x * Real(0.5) + t * Real(1. / 12) * (1 - t * Real(1. / 60) * (1 - t * Real(1. / 42)));
   return max(e + (1 + e) * x / denominator, Real(smallest_void_ratio<Scalar<Real>>));

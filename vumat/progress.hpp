@@ -47,14 +47,10 @@ Point<Real, N> select(const Mask<Real>& mask, const Point<Real, N>& a, Point<Rea
   return b;
 }
 
-/// Whether a point is finite and its state admissible.
+/// Whether lanes can do an update.
 template <class Real, int N>
-Mask<Real> admissible(const Point<Real, N>& point, const SymmetricTensor<Real, N>& strain) {
-  Real sum = point.void_ratio + point.plastic_strain + abs(point.separation_strain);
-  for (int c = 0; c < N; ++c) sum += abs(point.stress[c]) + abs(strain[c]);
-  const Real zero = 0;
-  return (sum <= std::numeric_limits<Scalar<Real>>::max()) & (point.void_ratio > zero) &
-         (point.plastic_strain >= zero);
+Mask<Real> ordinary(const Point<Real, N>& point, const SymmetricTensor<Real, N>& strain) {
+  return admissible(point, strain) & (abs(trace(strain)) <= Real(largest_series_strain<Scalar<Real>>));
 }
 
 /// Moves lanes `solved` to the end of their substep if its error allows; others of `tried` are to take a shorter one.
@@ -102,8 +98,8 @@ __attribute__((flatten, noinline)) void try_elastic(const Material<Real>& m, con
   using Lane = typename W::Lane;
   all_lanes.each([&](W& w) {
     const Lane zero = Real(0);
-    w.rests = !(admissible(w.point, w.strain) & (w.point.separation_strain <= zero) &
-                (trace(w.point.stress) > zero));
+    w.rests =
+        !(ordinary(w.point, w.strain) & (w.point.separation_strain <= zero) & (trace(w.point.stress) > zero));
     w.status = select(w.rests, Lane(Real(refused)), w.status);
   });
   const auto team = all_lanes.without(&W::rests);
@@ -184,7 +180,7 @@ __attribute__((flatten, noinline)) void try_plastic(const Material<Real>& m, con
 template <class Real, int N> void stay_apart(Progress<Real, N>& at) {
   using Lane = typename Progress<Real, N>::Lane;
   const Lane zero = Real(0), volumetric = trace(at.strain);
-  const Mask<Lane> apart = admissible(at.point, at.strain) & (at.point.separation_strain > zero) &
+  const Mask<Lane> apart = ordinary(at.point, at.strain) & (at.point.separation_strain > zero) &
                            (volumetric <= at.point.separation_strain);
   const Lane gap = max(at.point.separation_strain - volumetric, Lane(tiny<Real>));
   for (int c = 0; c < N; ++c) at.point.stress[c] = select(apart, zero, at.point.stress[c]);

@@ -95,9 +95,7 @@ template <class Real, int N>
 Update<Real, N> update(const Material<Real>& m, const Point<Real, N>& old,
                        const SymmetricTensor<Real, N>& strain_increment) noexcept {
   Update<Real, N> out{old, Status::elastic, 0, false};
-  Real sum = old.void_ratio + old.plastic_strain + old.separation_strain;
-  for (int c = 0; c < N; ++c) sum += std::abs(old.stress[c]) + std::abs(strain_increment[c]);
-  if (!std::isfinite(sum) || !(old.void_ratio > 0) || old.plastic_strain < 0) {
+  if (!admissible(old, strain_increment)) {
     out.status = Status::bad_input;
     return out;
   }
@@ -127,6 +125,10 @@ Update<Real, N> update(const Material<Real>& m, const Point<Real, N>& old,
       cut = true;
       size = std::max(size / 4, 1);
     }
+  }
+  if (!admissible(out.point, strain_increment)) { // a void ratio beyond all numbers
+    out = {old, Status::exhausted, 0, false};
+    return out;
   }
   if (trace(out.point.stress) == 0)
     out.point.separation_strain = std::max(out.point.separation_strain, tiny<Real>);

@@ -34,6 +34,16 @@ template <class Real, int N> struct Update {
   bool nonconvex;   ///< plastic, with (7) beyond its convex range
 };
 
+/// Whether a point and a strain increment are finite and the state is one that an update may start from.
+template <class Real, int N>
+Mask<Real> admissible(const Point<Real, N>& point, const SymmetricTensor<Real, N>& strain) {
+  Real sum = point.void_ratio + point.plastic_strain + abs(point.separation_strain);
+  for (int c = 0; c < N; ++c) sum += abs(point.stress[c]) + abs(strain[c]);
+  const Real zero = 0;
+  return (sum <= std::numeric_limits<Scalar<Real>>::max()) & (point.void_ratio > zero) &
+         (point.plastic_strain >= zero);
+}
+
 /// The point of the first update: void ratio e0, the stress on the yield surface.
 template <class Real, int N>
 Point<Real, N> initial_point(const Material<Real>& m, const SymmetricTensor<Real, N>& stress, Real e);

@@ -54,10 +54,12 @@ bool meets_from_here(const std::vector<ChartPoint>& points, const ChartPoint& po
                                        described(best->configuration), best->configuration.resolution));
 }
 
-/// The value below which 90 % lie.
-double bound_of_90(std::vector<double> values) {
+/// The value below which the share of `held_share` lies; at least 1.
+double factor_of(std::vector<double> values) {
+  if (values.empty()) return 1;
   std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, std::size_t(std::ceil(0.9 * double(values.size()))) - 1)];
+  const auto held = std::size_t(std::ceil(held_share * double(values.size())));
+  return std::max(1.0, values[std::min(values.size(), held) - 1]);
 }
 
 bool are_companions(const Configuration& fine, const Configuration& coarse) {
@@ -100,7 +102,8 @@ Interval calibrate_interval(const ChartData& data, bool plane) {
         fine.configuration.resolution >= data.finest(plane) || fine.configuration.material != "simsand")
       continue;
     const auto error = data.error(fine);
-    const auto chart = data.worst_error(fine.configuration);
+    const auto chart = data.worst_error(fine.configuration, fine.column);
+    if (!std::isfinite(chart.height)) continue; // no other column
     for (const auto& coarse : data.rows()) {
       if (coarse.failed || coarse.column != fine.column ||
           !are_companions(fine.configuration, coarse.configuration))
@@ -109,9 +112,7 @@ Interval calibrate_interval(const ChartData& data, bool plane) {
       add(radii, error.radius, chart.radius, fine.radius, coarse.radius);
     }
   }
-  if (heights.empty())
-    throw std::runtime_error("the chart's data hold no pair of runs that differ in resolution alone");
-  return {{std::max(1.0, bound_of_90(heights)), std::max(1.0, bound_of_90(radii))}, int(heights.size())};
+  return {{factor_of(heights), factor_of(radii)}, int(heights.size())};
 }
 
 double half_width(double factor, double chart_error, double difference) {

@@ -33,8 +33,12 @@ struct Interval {
   int pairs = 0; ///< of runs of the chart that the factors rest on
 };
 
-/// The factors for which 90 % of the pairs of a run and a run of about 1.6 times its spacing, of one kind and column, hold
-/// the finest run, and not below 1. The chart's error is that of the worst column.
+/// Share of the pairs below that intervals hold.
+inline constexpr double held_share = 0.8;
+
+/// The factors for which that share of the pairs of a run and a run of about 1.6 times its spacing, of one kind and column,
+/// hold the finest run, and not below 1. The chart's error is that of the worst of the other columns, as it will be for a scene
+/// that is not in the chart; where the chart has one column only no pair can tell, and the factors are 1.
 Interval calibrate_interval(const ChartData& data, bool plane);
 
 /// Half width for one quantity.

@@ -103,8 +103,13 @@ void print_estimates(const std::vector<Estimate>& all, const Interval& interval,
                e.companion);
     within = within && e.half_width <= tolerance;
   }
-  fmt::print("The intervals held the finest run in 90 % of {} pairs of the chart.{}\nestimate: {}\n",
-             interval.pairs,
+  const auto evidence =
+      interval.pairs > 0
+          ? fmt::format("Of {} pairs of the chart, each judged by the other columns, such intervals hold the "
+                        "finest run in {:.0f} %.",
+                        interval.pairs, 100 * held_share)
+          : std::string("The chart has one column for this flow: nothing has tested the intervals.");
+  fmt::print("{}{}\nestimate: {}\n", evidence,
              within ? ""
                     : fmt::format("\nThey are wider than the tolerance of {}: the run may miss it.",
                                   percent(tolerance)),

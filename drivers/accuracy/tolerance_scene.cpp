@@ -79,6 +79,11 @@ void refuse_other_material(const TomlTable& root, const host::Scene& scene) {
 host::Scene read_scene_to_choose(const std::string& file, const Words& settings) {
   refuse_chosen_settings(settings);
   auto scene = read_scene(file, settings);
+  if (!scene.walls.empty())
+    throw std::runtime_error(
+        fmt::format("{}: key 'wall': expected [floor] and [gate] beside --tolerance, whose chart has "
+                    "columns, found walls of a list",
+                    file));
   const auto root = document(file, settings);
   refuse_other_material(root, scene);
   refuse_other_numerics(root, scene);

@@ -70,12 +70,14 @@ double stress_ratio(Origin origin, double mobilised, Dice& dice) {
   }
 }
 
-/// Makes one number of a good state one that must be refused.
+/// Makes one number of a good state, or of a first call, one that must be refused.
 void spoil(RandomPoint& r, Dice& dice) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinite = std::numeric_limits<double>::infinity();
   const double bad = dice.chance(0.5) ? nan : infinite;
-  const int where = int(6 * dice.uniform());
+  const bool first_call = dice.chance(0.3);
+  if (first_call) r.point.void_ratio = r.point.plastic_strain = 0;
+  const int where = int((first_call ? 2 : 6) * dice.uniform());
   if (where == 0) r.point.stress[int(dice.components * dice.uniform())] = bad;
   if (where == 1) r.strain[int(dice.components * dice.uniform())] = -bad;
   if (where == 2) r.point.void_ratio = bad;

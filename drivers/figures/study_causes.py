@@ -17,7 +17,7 @@ import numpy as np
 
 from figures import BLUE, GREEN, GREY, MM, ORANGE, PURPLE, SKY, surface
 from result import Result
-from study_data import deviation, read_dem
+from study_data import deviation, mean_top, read_dem
 from study_page import PAGE, bullets, embedded, page_table, save, write_table
 
 PARAMETERS = ("friction", "dilatancy", "interlocking", "packing")
@@ -34,10 +34,10 @@ class Change:
         self.family, _, self.value = folder.name.partition("_")
         self.result = Result(folder / "result.h5")
         summary = self.result.file["summary"]
-        self.height, self.runout, self.rest = (float(summary[name][()]) for name in
-                                               ("final_height", "runout", "time_to_rest"))
+        self.runout, self.rest = (float(summary[name][()]) for name in ("runout", "time_to_rest"))
         material = self.result.scene["material"]
         self.friction, self.r0 = material["phi"], self.result.scene["column"]["radius"]
+        self.height = self.top = mean_top(self.result, self.r0)
 
 
 def read_changes(folder):

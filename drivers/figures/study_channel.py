@@ -126,12 +126,18 @@ def comparison_lines(rows, runs):
     return lines
 
 
+def farthest_toe(runs):
+    """mm; a toe beyond the sampled radii is not known and counts as two lengths."""
+    toes = [(run.scene["column"]["radius"], float(run.file["summary/runout"][()])) for run in runs.values()]
+    return MM * max(length * (1 + runout if np.isfinite(runout) else 2) for length, runout in toes)
+
+
 def lines_figure(runs):
     """Final surfaces and failure lines: SIMSAND above, Drucker-Prager (and one of SIMSAND) below."""
     groups = ([n for n in runs if n.startswith("simsand")],
               [n for n in runs if n.startswith("drucker")] + [n for n in runs if n == CRITICAL])
     fig, axes = plt.subplots(2, 1, figsize=(9.5, 6.2), sharex=True, layout="constrained")
-    reach = MM * max(run.scene["column"]["radius"] * (1 + float(run.file["summary/runout"][()])) for run in runs.values())
+    reach = farthest_toe(runs)
     for ax, names, title in zip(axes, groups, ("SIMSAND at four void ratios", "Drucker-Prager, and SIMSAND near critical")):
         for name in names:
             run, colour = runs[name], COLOURS.get(name, GREY)
@@ -152,7 +158,7 @@ def lines_figure(runs):
 
 
 def fields_figure(runs):
-    reach = MM * max(run.scene["column"]["radius"] * (1 + float(run.file["summary/runout"][()])) for run in runs.values())
+    reach = farthest_toe(runs)
     fig, axes = plt.subplots(len(runs), 1, figsize=(8.5, 2.05 * len(runs)), sharex=True, squeeze=False,
                              layout="constrained")
     for ax, (name, run) in zip(axes[:, 0], runs.items()):

@@ -99,8 +99,8 @@ def why(rows, runs, dem):
         pairs = [(run, other) for run, other in seen if run.shape in grains]
         if not pairs:
             continue
-        at_end = np.array([run.height / other.height - 1 for run, other in pairs])
-        at_rest = np.array([run.height / (np.interp(run.rest, other.time, other.heights) / other.r0) - 1
+        at_end = np.array([run.top / other.height - 1 for run, other in pairs])
+        at_rest = np.array([run.top / (np.interp(run.rest, other.time, other.heights) / other.r0) - 1
                             for run, other in pairs if np.isfinite(run.rest)])
         energy = [(other["energy/kinetic"] + other["energy/rotational"])[-1] / other["energy/potential"][0]
                   for _, other in pairs]
@@ -112,7 +112,7 @@ def why(rows, runs, dem):
                          "rate-independent continuum with the strength of slow triaxial tests stands where they still "
                          "creep. The experiments of simsand study causes tell parameters, boundary, model and scheme apart")
         offset = np.mean([other.heights[0] / other.h0 - 1 for _, other in pairs])
-        levelled = np.array([run.height / (other.height - (other.heights[0] - other.h0) / other.r0) - 1
+        levelled = np.array([run.top / (other.height - (other.heights[0] - other.h0) / other.r0) - 1
                              for run, other in pairs])
         lines.append(f"{label}: what is called the surface of DEM, the mean of the highest grain tops, lies {100 * offset:+.1f} % "
                      "above the initial height before anything moves; errors smaller than that are of the definition. Less what the tops "

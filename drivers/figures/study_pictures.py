@@ -50,7 +50,7 @@ def draw_laws(axes, laws):
 def draw_deposits(axes, columns):
     for shape in SHAPES:
         for packing in PACKINGS:
-            points = [(k[2], v.height, v.runout) for k, v in sorted(columns.items()) if k[:2] == (shape, packing)]
+            points = [(k[2], v.top, v.runout) for k, v in sorted(columns.items()) if k[:2] == (shape, packing)]
             if points:
                 x, heights, runouts = np.array(points).T
                 for ax, y in zip(axes, (heights, runouts)):
@@ -85,6 +85,11 @@ def absent(ax, x, text):
     ax.text(x, 0.5, text, transform=ax.transAxes, ha="center", va="center", color=GREY, fontsize=9)
 
 
+def farthest(bodies):
+    """Largest front, m; beyond the sampled radii it is not known, and the picture then ends at four radii."""
+    return max(body.r0 * (1 + body.runout if np.isfinite(body.runout) else 4) for body in bodies)
+
+
 def mirrored_axis(ax, reach, top):
     ax.set_aspect("equal")
     ax.set_xlim(-reach, reach)
@@ -108,7 +113,7 @@ def outlines(runs, dem, aspect=2.0, packing="dense"):
         return None
     bodies = [runs[s, packing, aspect] for s in shapes] + [body for key, body in dem.items()
                                                           if key in [(s, packing, aspect) for s in shapes]]
-    reach = 1.1 * MM * max(body.r0 * (1 + body.runout) for body in bodies)
+    reach = 1.1 * MM * farthest(bodies)
     fig, axes = row_figure(len(shapes), reach, 55 * aspect)
     colours = plt.get_cmap("viridis_r")(np.linspace(0.1, 1, len(TIMES) + 1))
     for ax, shape in zip(axes[:, 0], shapes):
@@ -155,7 +160,7 @@ def heights(runs, dem):
                 if aspect == 2:
                     ax.text(phase, 1.065, label, fontsize=7, color=GREY, ha="center")
             ax.axvline(3 * scale, color="0.5", lw=0.9, ls=":", zorder=0)
-            ax.set_xlim(0, 0.62)
+            ax.set_xlim(0, 0.82)
             ax.set_ylim(0, 1.12)
             ax.set_title(f"$a$ = {aspect:g}, {packing}", fontsize=9.5)
     for ax in axes[1]:
@@ -197,7 +202,7 @@ def all_fields(runs):
     """Fig. 10: final displacement of every column, equal scales in a column of panels."""
     series = [(s, p) for s in SHAPES for p in PACKINGS if any(k[:2] == (s, p) for k in runs)]
     aspects = [a for a in ASPECTS if any(k[2] == a for k in runs)]
-    reach = [1.08 * MM * max(r.r0 * (1 + r.runout) for k, r in runs.items() if k[2] == a) for a in aspects]
+    reach = [1.08 * MM * farthest(r for k, r in runs.items() if k[2] == a) for a in aspects]
     top = [1.12 * MM * max(r.r0 * r.height for k, r in runs.items() if k[2] == a) for a in aspects]
     width = 16.0
     panel = max(width * t / sum(reach) for t in top)
@@ -230,7 +235,7 @@ def compared_fields(runs, dem, aspect=2.0, packing="dense"):
         return None
     pairs = [(runs[s, packing, aspect], dem.get((s, packing, aspect))) for s in shapes]
     bodies = [body for pair in pairs for body in pair if body]
-    reach = 1.12 * MM * max(body.r0 * (1 + body.runout) for body in bodies)
+    reach = 1.12 * MM * farthest(bodies)
     top = 1.15 * MM * max(body.r0 * body.height for body in bodies)
     fig, axes = row_figure(len(shapes), reach, top)
     for ax, (run, other) in zip(axes[:, 0], pairs):
@@ -261,7 +266,7 @@ def errors(sets):
         for ax, of in zip(axes, ("height_error_%", "radius_error_%")):
             ax.bar(x + 0.8 * (number + 0.5) / len(sets) - 0.4, [found[cases[n]][of] for n in x], 0.8 / len(sets),
                    color=colours[name], label=name)
-    for ax, label in zip(axes, ("$h_f$: SPH - DEM / %", "$r_f$: SPH - DEM / %")):
+    for ax, label in zip(axes, ("$h_f$: SPH / DEM - 1, %", "$r_f$: SPH / DEM - 1, %")):
         for bound in (-15, 15):
             ax.axhline(bound, color="0.6", lw=0.8, ls="--")
         ax.axhline(0, color="black", lw=0.8)

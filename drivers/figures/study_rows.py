@@ -45,7 +45,7 @@ def law_part(aspect, laws):
 def row_of(run, other, laws):
     share = undisturbed(run)
     row = {"shape": run.shape, "packing": run.packing, "a": run.aspect, "void_ratio": run.void_ratio,
-           "height": run.height, "runout": run.runout, "time_to_rest_s": run.rest,
+           "height": run.height, "top": run.top, "runout": run.runout, "time_to_rest_s": run.rest,
            "fall_95_s": fallen(run.time, run.heights, 0.95), "undisturbed": share,
            "undisturbed_cm3": volume(run, share)}
     if other:

@@ -81,6 +81,7 @@ std::vector<std::string> run_jobs(std::vector<Job> jobs, const JobLimits& limits
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
   const double whole = std::accumulate(jobs.begin(), jobs.end(), 0.0,
                                        [](double sum, const Job& job) { return sum + job.cost; });
+  std::signal(SIGCHLD, SIG_DFL); // a caller that ignores it would keep us from the runs' exit codes
   const auto began = std::chrono::steady_clock::now();
   std::vector<std::string> failed;
   Running running;
@@ -91,6 +92,8 @@ std::vector<std::string> run_jobs(std::vector<Job> jobs, const JobLimits& limits
     rusage usage{};
     const pid_t process = wait4(-1, &status, 0, &usage);
     if (process < 0 && errno == EINTR) continue;
+    if (process < 0)
+      throw std::runtime_error(fmt::format("cannot learn how the runs ended: {}", std::strerror(errno)));
     const auto at = running.jobs.find(process);
     if (at == running.jobs.end()) continue;
     const Job& job = *at->second;

@@ -22,6 +22,9 @@ TEST(AbaqusDeck, IsInOrderForEveryKindOfScene) {
       {.geometry = "plane_strain"},
       {.geometry = "plane_strain", .motion = "remove"},
       {.geometry = "plane_strain", .motion = "fixed", .friction = "\"no-slip\"", .height = 0.1},
+      {.geometry = "three_dimensional\"\nsector = \"full"},
+      {.geometry = "three_dimensional\"\nsector = \"half", .motion = "remove"},
+      {.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007, .height = 0.1},
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto deck = written(cases[i], fmt::format("kind_{}", i));

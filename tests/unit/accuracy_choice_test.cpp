@@ -102,16 +102,25 @@ TEST(Choice, SofterSandIsTakenWhereItSavesAndIsRight) {
   EXPECT_EQ(choose(ChartData(rows), false, 0.05).point.configuration, at_resolution({}, 20));
 }
 
-TEST(Interval, HoldsNineOfTenPairsAndIsNoNarrowerThanTheChart) {
+TEST(Interval, HoldsEightOfTenPairsOfColumnsLeftOutAndIsNoNarrowerThanTheChart) {
   // Error e at n, 2e at n / 1.6: the difference is about e, the chart's error of the other column is e.
   const auto interval = calibrate_interval(ChartData(halving()), false);
   EXPECT_EQ(interval.pairs, 6);
   EXPECT_EQ(interval.factor.height, 1); // e / hypot(e, e) is below 1
   auto rows = halving();
-  rows.push_back(row(at_resolution({}, 20), 0.2, "two")); // beyond the column's root mean square, 14 %
+  rows.push_back(row(at_resolution({}, 20), 0.2, "two"));
+  EXPECT_EQ(calibrate_interval(ChartData(rows), false).factor.height,
+            1);                                           // one pair of seven is held by nothing
+  rows.push_back(row(at_resolution({}, 20), 0.2, "one")); // beyond the other column's root mean square, 14 %
   const auto wide = calibrate_interval(ChartData(rows), false);
+  EXPECT_EQ(wide.pairs, 8);
   EXPECT_NEAR(wide.factor.height, 0.2 / std::hypot(std::sqrt((0.2 * 0.2 + 0.04 * 0.04) / 2), 1.08 / 1.2 - 1),
               1e-3);
+  rows = halving();
+  std::erase_if(rows, [](const ChartRow& r) { return r.column == "two"; });
+  const auto alone = calibrate_interval(ChartData(rows), false); // nothing to judge by
+  EXPECT_EQ(alone.pairs, 0);
+  EXPECT_EQ(alone.factor.height, 1);
   EXPECT_EQ(half_width(1, 0.03, 0.04), 0.05);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stress stage: what the material is shown, what becomes of its answer, and who is blamed.
+#include "host/corotational.hpp"
 #include "host/geometry.hpp"
 #include "host/rotation.hpp"
 #include "host/stress.hpp"
@@ -52,6 +53,18 @@ void stays(const int* nblock, const int*, const int* nshr, const int*, const int
 
 Material staying(double nan_from = 1e9, double in_state = 0) {
   return {{"stays", nullptr, stays}, "STAYS", {nan_from, in_state}, 1};
+}
+
+/// Keeps the stress, and writes to defgradNew, an input, in a call that is not compared.
+void scribbles(const int* nblock, const int*, const int* nshr, const int*, const int*, const int*, const int*,
+               const double*, const double*, const double*, const char*, const double*, const double*,
+               const double*, const double*, const double*, const double*, const double*, const double*,
+               const double*, const double*, const double* old, const double*, const double*, const double*,
+               const double*, const double*, const double* gradient, const double*, double* stress, double*,
+               double*, double*, std::size_t) {
+  static int calls = 0;
+  std::copy_n(old, *nblock * (3 + *nshr), stress);
+  if (++calls == 18) const_cast<double*>(gradient)[3 * *nblock] += 1;
 }
 
 template <class Geometry> void update(Particles<Geometry>& p, const Material& material, double time = dt) {
@@ -217,6 +230,17 @@ TEST(Stress, NamesTheFirstParticleWithoutANumber) {
       EXPECT_EQ(error.find('\n'), std::string::npos);
       EXPECT_TRUE(std::isfinite(p.stress[3][first])) << "the last good stress stays";
     }
+}
+
+TEST(Stress, ASubroutineCannotBendTheDeformationGradient) {
+  Material material{{"scribbles", nullptr, scribbles}, "SCRIBBLES", {}, 1};
+  material.frame = Frame::green_naghdi;
+  auto p = random_particles<PlaneStrain>(10);
+  for (auto& g : p.velocity_gradient) std::fill(g.begin(), g.end(), 0.0);
+  carry_deformation(p);
+  auto blocks = make_stress_blocks(material, p, 0.002);
+  for (int k = 1; k <= 20; ++k) update_stress(p, material, {k * dt, k * dt, dt}, blocks);
+  for (int i = 0; i < p.count; ++i) EXPECT_EQ(p.deformation_gradient[3][i], 0) << i;
 }
 
 TEST(Stress, WaveSpeedIsThatOfUniaxialStrain) {

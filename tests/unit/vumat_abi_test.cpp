@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shell: what a host sees of the material through the calling convention.
 #include "tests/unit/vumat_fixture.hpp"
+#include <cstring>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -177,6 +178,80 @@ TEST(VumatAbi, RefusedPropertiesAndShapesAreSeenByEveryHost) {
   broken.state_old[0] = 0.6;
   broken.strain[0] = std::numeric_limits<double>::quiet_NaN();
   failed(broken, -2);
+}
+
+/// Not a number, infinite or impossible, in a first call, an increment, a data check and an annealing call.
+TEST(VumatAbi, BadNumbersAreRefusedByEveryTask) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinite = std::numeric_limits<double>::infinity();
+  constexpr int points = 20, bad_point = 11;
+  const auto good = [](bool first_call, bool data_check, bool annealing) {
+    Block b(points, 3, props(SS, 0.58));
+    b.time = data_check ? 0 : 1;
+    b.annealing = annealing;
+    for (int k = 0; k < points; ++k) {
+      for (int c = 0; c < 3; ++c) b.stress_old[c * points + k] = -1000 - k;
+      b.strain[k] = -1e-5;
+      if (!first_call) b.state_old[k] = 0.6;
+    }
+    return b;
+  };
+  const auto refuses = [&](const Block& b, std::vector<double> Block::*array, int entry, double value) {
+    Block with = b, without = b;
+    (with.*array)[std::size_t(entry) * points + bad_point] = value;
+    with.call();
+    without.call();
+    for (int c = 0; c < 6; ++c)
+      for (int k = 0; k < points; ++k)
+        if (k == bad_point)
+          EXPECT_TRUE(std::isnan(with.stress_new[c * points + k])) << entry << " " << value;
+        else
+          EXPECT_EQ(with.stress_new[c * points + k], without.stress_new[c * points + k]);
+    EXPECT_EQ(with.state(statev::status, bad_point), -2) << entry << " " << value;
+    for (const int s : {statev::void_ratio, statev::plastic_deviatoric_strain, statev::separation_strain})
+      EXPECT_EQ(
+          std::memcmp(&with.state_new[s * points + bad_point], &with.state_old[s * points + bad_point], 8),
+          0);
+  };
+  for (const bool annealing : {false, true})
+    for (const bool data_check : {false, true})
+      for (const bool first_call : {false, true}) {
+        const Block b = good(first_call, data_check, annealing);
+        for (const double bad : {nan, infinite, -infinite})
+          for (int c = 0; c < 6; ++c) {
+            refuses(b, &Block::stress_old, c, bad);
+            if (!annealing) refuses(b, &Block::strain, c, bad);
+          }
+        for (const double bad : {nan, -0.5}) refuses(b, &Block::state_old, statev::void_ratio, bad);
+        if (first_call) continue; // the rest of the state is not looked at
+        for (const double bad : {nan, -1e-3})
+          refuses(b, &Block::state_old, statev::plastic_deviatoric_strain, bad);
+        refuses(b, &Block::state_old, statev::separation_strain, nan);
+      }
+}
+
+/// Increments far beyond use: the void ratio is that of the volume, or the point fails.
+TEST(VumatAbi, VoidRatioOfHugeIncrements) {
+  for (const double strain : {-50., -1., 0.4, 3., 20., 2000.}) {
+    Block b(16, 3, props(SS, 0.58));
+    for (int k = 0; k < 16; ++k) {
+      for (int c = 0; c < 3; ++c) {
+        b.stress_old[c * 16 + k] = -1000;
+        b.strain[c * 16 + k] = strain / 3;
+      }
+      b.state_old[k] = 0.6;
+    }
+    b.call();
+    for (int k = 0; k < 16; ++k) {
+      const double e = std::max(1.6 * std::exp(strain) - 1, 0.01);
+      if (!std::isfinite(e))
+        EXPECT_EQ(b.state(statev::status, k), -1);
+      else if (b.state(statev::status, k) >= 0)
+        EXPECT_NEAR(b.state(statev::void_ratio, k), e, 1e-14 * (1 + e));
+      else
+        EXPECT_LT(strain, -1) << "may fail in compression only";
+    }
+  }
 }
 
 TEST(VumatAbi, StatesBeyondItsOwnAreHandedThrough) {

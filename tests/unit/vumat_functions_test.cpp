@@ -108,6 +108,10 @@ TEST(VumatFunctions, VoidRatioFollowsTheExponentialAndReturns) {
     EXPECT_NEAR(e, 0.6 + change, std::abs(change) * std::pow(strain, 8) / 1e6 + 3e-16);
     EXPECT_NEAR(void_ratio_after(e, -strain), 0.6, 3e-16);
   }
+  // Beyond the series.
+  for (const double strain : {-0.35, -3., -20.})
+    EXPECT_NEAR(void_ratio_after(0.6, strain), 0.6 + 1.6 * std::expm1(-strain), 1e-15 * std::exp(-strain));
+  EXPECT_EQ(void_ratio_after(0.6, 50.), 0.01);
 }
 
 TEST(VumatFunctions, MeanFactorIsTheIntegralOverTheStrain) {

@@ -90,6 +90,7 @@ TEST(ToleranceRun, RefusesWhatConflicts) {
   refused(coarse + " --tolerance 1%", "the best is");
   refused(coarse + " --tolerance 5", "expected a share above 0");
   refused(data + "/scenes/channel.toml --tolerance 20%", "no configuration for this flow");
+  refused(data + "/scenes/chute.toml --tolerance 20%", "key 'wall': expected [floor] and [gate] beside --tolerance");
   refused(coarse + " --tolerance 12% --set scene.spacing=0.002",
           "--set scene.spacing=0.002: expected no such key");
   refused(coarse + " --tolerance 12% --set numerics.viscosity=0.1",

@@ -135,9 +135,9 @@ TEST(Guard, SeesWorkOfWhatOnlyTakes) {
   EXPECT_EQ(check(&host::Work::viscosity, -1), "no error");
   EXPECT_EQ(check(&host::Work::stress, 0.049), "no error");
   EXPECT_TRUE(has(check(&host::Work::viscosity, 0.0011), "artificial viscosity gave the sand 0.0011 of"));
-  EXPECT_TRUE(
-      has(check(&host::Work::stress, 0.051), "at time 0 s: the stress of pairs gave the sand 0.051 of the"));
-  EXPECT_TRUE(has(check(&host::Work::stress, NAN), "the stress of pairs gave the sand nan"));
+  EXPECT_TRUE(has(check(&host::Work::stress, 0.051),
+                  "at time 0 s: the stress of pairs and walls gave the sand 0.051 of the"));
+  EXPECT_TRUE(has(check(&host::Work::stress, NAN), "the stress of pairs and walls gave the sand nan"));
   s.work = {};
   s.loads[0].work = 0.031 * e0;
   const auto by_wall = error_of([&] { host::check_work(s); });
@@ -145,7 +145,13 @@ TEST(Guard, SeesWorkOfWhatOnlyTakes) {
   EXPECT_TRUE(has(by_wall, "numerics.step_factor"));
   s.walls[0].motion = s.scene.walls[0].motion = {{0, 1}, {{}, {}}};
   s.work.stress = e0;
+  EXPECT_TRUE(
+      has(error_of([&] { host::check_work(s); }), "the stress of pairs and walls gave the sand 1 of"));
+  s.loads[0].given = e0;
   EXPECT_EQ(error_of([&] { host::check_work(s); }), "no error") << "a wall that moves may give";
+  s.work.stress = 1.11 * e0;
+  EXPECT_TRUE(
+      has(error_of([&] { host::check_work(s); }), "the stress of pairs and walls gave the sand 0.055 of"));
 }
 
 /// Pairs made several times the energy of the start, and viscosity took it, unseen.

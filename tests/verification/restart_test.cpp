@@ -331,7 +331,7 @@ TEST(Restart, RefusesWhatItCannotGoOnWith) {
     const int layout = 2;
     file.openAttribute("checkpoint_version").write(H5::PredType::NATIVE_INT, &layout);
   }
-  refuses("old", "a checkpoint of layout 2, this program reads 3");
+  refuses("old", "a checkpoint of layout 2, this program reads 4");
   EXPECT_TRUE(fs::exists(old / "checkpoint.h5")) << "for the program that wrote it";
   program.write("cut/scene.toml", changed);
   refuses("cut", "cut/scene.toml: key 'floor.friction'");
@@ -344,7 +344,11 @@ TEST(Restart, RefusesWhatItCannotGoOnWith) {
         .write(text, std::string("0.0.1"));
   }
   refuses("version", "checkpoint.h5: written by simsand 0.0.1, this is ");
-  EXPECT_EQ(program.run("run -q -t 1 --resume scene.toml -o cut").status, 0)
+  refuses("scene.toml -o cut --set floor.friction=0.4",
+          "key 'floor.friction': expected 0.5 as in the checkpoint");
+  refuses("cut --set floor.friction=0.5",
+          "--set floor.friction=0.5: expected a scene file beside it, found cut");
+  EXPECT_EQ(program.run("run -q -t 1 --resume changed.toml -o cut --set floor.friction=0.5").status, 0)
       << "the scene that it began with";
   expect_same(program.folder / "cut/result.h5", whole());
 }
