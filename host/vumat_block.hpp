@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The caller's side of the VUMAT interface: arrays of one block in the order of the convention, and
-// the call. The SPH stress stage fills a block of up to 128 particles, the element driver one point.
+// the call. The SPH stress stage fills blocks of 64 particles, the element driver 1 to 128 points.
 #pragma once
 #include "host/kinematics.hpp"
 #include "host/vumat_guard.hpp"

@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "study.sh: $*" >&2; exit 1; }
 
-# Three columns: two sets at both spacings, the sensitivities at the coarse one; DEM exists of all three.
+# Three columns, five sets, two spacings; DEM exists of all three.
 columns=("$simsand" study columns --spacing 0.005,0.00625 --only dense_a0.5 -o "$folder/columns")
 "${columns[@]}" > "$folder/first.log" 2>&1 || { cat "$folder/first.log" >&2; fail "columns failed"; }
 grep -q "30 runs, 30 of them to do" "$folder/first.log" || fail "not 30 runs at first: $(head -n 1 "$folder/first.log")"

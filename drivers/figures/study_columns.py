@@ -17,7 +17,7 @@ from study_discussion import against_dem, against_laws, between_sets, simpler, s
 from study_page import (PAGE, bullets, embedded, page_table, save, text_bullets, text_table,
                         write_table)
 from study_pictures import plt
-from study_rows import cost_rows, rows_of
+from study_rows import cost_rows, dem_rows, rows_of
 from study_trends import trends
 
 MAIN = {"dem": "Parameters calibrated on DEM triaxial tests", "table4": "Parameters of the paper's Table 4"}
@@ -144,6 +144,9 @@ def set_part(study, name, title):
     if name in MAIN:
         body += study.title("Why SPH and DEM differ", 3) + study.sentences(why(rows, runs, study.dem) + thrown(runs))
         body += study.title("Beside the laws of the laboratory", 3) + study.sentences(against_laws(rows))
+        if study.dem:
+            body += study.title("Discrete elements beside the same laws", 3)
+            body += study.sentences(against_laws(dem_rows(study.dem, study.laws)))
         body += fields_of(study, name)
     elif name == "drucker_prager":
         body += study.sentences(simpler(rows, like_columns(study, name, "dem")))

@@ -59,6 +59,12 @@ def row_of(run, other, laws):
     return row
 
 
+def dem_rows(dem, laws):
+    """Discrete elements as rows of their own, beside the laws."""
+    return [{"shape": key[0], "packing": key[1], "a": key[2], "height": dem[key].height, "runout": dem[key].runout,
+             **law_part(key[2], laws)} for key in ordered(dem)]
+
+
 def rows_of(runs, dem, laws):
     return [row_of(runs[key], dem.get(key), laws) for key in ordered(runs)]
 

@@ -1,7 +1,6 @@
 c     SPDX-License-Identifier: BSD-3-Clause
 c     Elastic, and checks what the host gives it. PROPS: Young's modulus
-c     (Pa), Poisson's ratio, initial density (kg/m3), initial vertical
-c     stress that a data check must find somewhere (Pa; 0: none).
+c     (Pa), Poisson's ratio, initial density (kg/m3).
 c     STATEV(1): sum of the codes below of what was ever wrong, also
 c     told by xplb_abqerr; (2) increments; (3) last totalTime; (4) last
 c     internal energy; (5) to (13) last F; (14) largest departure of a
