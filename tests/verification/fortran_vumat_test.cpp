@@ -52,6 +52,19 @@ TEST(FortranElastic, UniaxialCompression) {
   }
 }
 
+TEST(FortranElastic, StartsFromTheInitialState) {
+  const auto started = material("elastic", "[2e6, 0.25]", 1, "initial_state = [7]");
+  auto t = table(run_path(started, stage("triaxial-drained", "axial_strain = 0.3\nincrements = 30"), 1e3));
+  ASSERT_EQ(t["state_1"].size(), 31);
+  for (std::size_t i = 0; i < 31; ++i) EXPECT_EQ(t["state_1"][i], 7 + double(i)) << "accepted increments";
+  EXPECT_EQ(run_scene(elastic).status, 0);
+  const auto from_zero = last("state_1");
+  EXPECT_EQ(run_scene(started).status, 0);
+  const auto from_seven = last("state_1");
+  ASSERT_EQ(from_seven.size(), from_zero.size());
+  for (std::size_t i = 0; i < from_zero.size(); ++i) EXPECT_EQ(from_seven[i], 7 + from_zero[i]);
+}
+
 TEST(FortranElastic, SimpleShearWithRotation) {
   // The closed form of Johnson and Bammann (1984); compression positive.
   auto t = table(run_path(
