@@ -118,6 +118,11 @@ def why(rows, runs, dem):
                      "above the initial height before anything moves; errors smaller than that are of the definition. Less what the tops "
                      f"stand above each column at first, heights are off by {100 * np.abs(levelled).mean():.1f} % in the mean, with sign "
                      f"{100 * levelled.mean():+.1f} %")
+        thick = {packing: np.mean([np.average(other["outline/thickness"][-1][:3], weights=(1, 3, 5)) / other.heights[-1] - 1
+                                   for run, other in pairs if run.packing == packing])
+                 for packing in sorted({run.packing for run, _ in pairs})}
+        lines.append(f"{label}: by the volume of the grains over the solid fraction of the cut column, in place of their tops, "
+                     "DEM's heights would differ by " + ", ".join(f"{100 * x:+.1f} % ({packing})" for packing, x in thick.items()))
         same = [row for row in rows if row["shape"] in grains and "dem_undisturbed" in row]
         if same:
             lines.append(f"{label}: undisturbed share of the column {np.mean([r['undisturbed'] for r in same]):.2f} in SPH and "
