@@ -32,7 +32,7 @@ for file in table4.csv dem.csv literal.csv dem_packing.csv drucker_prager.csv co
   [[ -s $folder/columns/$file ]] || fail "no $file"
 done
 [[ $(wc -l < "$folder/columns/table4.csv") == 4 ]] || fail "table4.csv has not one row for each column"
-head -n 1 "$folder/columns/table4.csv" | grep -q "^shape,packing,a,void_ratio,height,runout,.*dem_height" ||
+head -n 1 "$folder/columns/table4.csv" | grep -q "^shape,packing,a,void_ratio,height,top,runout,.*dem_height" ||
   fail "columns of table4.csv"
 [[ $(wc -l < "$folder/columns/cost.csv") == 11 ]] || fail "cost.csv has not one row for each set and spacing"
 grep -q 'src="http' "$folder/columns/index.html" && fail "the page is not self-contained"

@@ -110,12 +110,13 @@ TEST(Interval, HoldsEightOfTenPairsOfColumnsLeftOutAndIsNoNarrowerThanTheChart) 
   auto rows = halving();
   rows.push_back(row(at_resolution({}, 20), 0.2, "two"));
   EXPECT_EQ(calibrate_interval(ChartData(rows), false).factor.height,
-            1);                                           // one pair of seven is held by nothing
-  rows.push_back(row(at_resolution({}, 20), 0.2, "one")); // beyond the other column's root mean square, 14 %
+            1); // one pair of seven is held by nothing
+  // Four of fourteen, beyond the other column's root mean square, 16 %.
+  for (const auto* column : {"one", "one", "two"}) rows.push_back(row(at_resolution({}, 20), 0.2, column));
   const auto wide = calibrate_interval(ChartData(rows), false);
-  EXPECT_EQ(wide.pairs, 8);
-  EXPECT_NEAR(wide.factor.height, 0.2 / std::hypot(std::sqrt((0.2 * 0.2 + 0.04 * 0.04) / 2), 1.08 / 1.2 - 1),
-              1e-3);
+  EXPECT_EQ(wide.pairs, 14);
+  EXPECT_NEAR(wide.factor.height,
+              0.2 / std::hypot(std::sqrt((2 * 0.2 * 0.2 + 0.04 * 0.04) / 3), 1.08 / 1.2 - 1), 1e-3);
   rows = halving();
   std::erase_if(rows, [](const ChartRow& r) { return r.column == "two"; });
   const auto alone = calibrate_interval(ChartData(rows), false); // nothing to judge by
