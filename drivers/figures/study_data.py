@@ -172,6 +172,11 @@ def deviation(run, dem):
     return run.top / dem.height - 1, (1 + run.runout) / (1 + dem.runout) - 1
 
 
+def farthest(bodies):
+    """Largest front, m; beyond the sampled radii it is not known and counts as five radii."""
+    return max(body.r0 * (1 + body.runout if np.isfinite(body.runout) else 4) for body in bodies)
+
+
 def outline_distance(run, dem):
     """Area between the final outlines over the area of the initial half section."""
     r = run.result.radii

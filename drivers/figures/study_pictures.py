@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from figures import AMBER, BLUE, GREEN, GREY, MM, ORANGE, SKY, level_line, particles, surface
-from study_data import ASPECTS, PACKINGS, SHAPES, STILL
+from study_data import ASPECTS, PACKINGS, SHAPES, STILL, farthest
 from study_rows import HEIGHT_LAW, RADIUS_LAW, RUNOUT_LAW
 
 COLOUR = dict(zip(SHAPES, (BLUE, ORANGE, GREEN)))
@@ -83,11 +83,6 @@ def nearest(times, wanted):
 
 def absent(ax, x, text):
     ax.text(x, 0.5, text, transform=ax.transAxes, ha="center", va="center", color=GREY, fontsize=9)
-
-
-def farthest(bodies):
-    """Largest front, m; beyond the sampled radii it is not known, and the picture then ends at four radii."""
-    return max(body.r0 * (1 + body.runout if np.isfinite(body.runout) else 4) for body in bodies)
 
 
 def mirrored_axis(ax, reach, top):

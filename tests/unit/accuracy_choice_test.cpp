@@ -110,7 +110,7 @@ TEST(Interval, HoldsEightOfTenPairsOfColumnsLeftOutAndIsNoNarrowerThanTheChart) 
   auto rows = halving();
   rows.push_back(row(at_resolution({}, 20), 0.2, "two"));
   EXPECT_EQ(calibrate_interval(ChartData(rows), false).factor.height,
-            1); // one pair of seven is held by nothing
+            1); // one pair of eight is held by nothing
   // Four of fourteen, beyond the other column's root mean square, 16 %.
   for (const auto* column : {"one", "one", "two"}) rows.push_back(row(at_resolution({}, 20), 0.2, column));
   const auto wide = calibrate_interval(ChartData(rows), false);
