@@ -86,6 +86,8 @@ void read_numerics(const TomlTable& root, host::Scene& scene) {
   // Clusters of eight list many more neighbours in three dimensions than one particle has: the skin must be thin.
   if (scene.geometry == host::GeometryKind::three_dimensional) numerics.skin = 0.2;
   const auto table = root.table_or_empty("numerics");
+  const auto kernel = table.text("kernel", {"wendland-c2", "wendland-c4"}, "wendland-c2");
+  numerics.kernel = kernel == "wendland-c2" ? host::KernelKind::wendland_c2 : host::KernelKind::wendland_c4;
   numerics.smoothing_length = table.number("smoothing_length", {1.1, 3}, numerics.smoothing_length);
   numerics.viscosity = table.number("viscosity", {0, 10}, numerics.viscosity);
   numerics.flow_viscosity = table.number("flow_viscosity", {0, 1000}, numerics.flow_viscosity);

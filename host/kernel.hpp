@@ -1,33 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wendland C2 kernel (Wendland 1995, Adv. Comput. Math. 4:389), support radius 2 h. The cut-off is a
-// clamp, not a branch: beyond the support every value is exactly zero.
+// Wendland's kernels C2 and C4 (Wendland 1995, Adv. Comput. Math. 4:389; Dehnen and Aly 2012, MNRAS 425:1068, Table 1),
+// support radius 2 h. The cut-off is a clamp, not a branch: beyond the support every value is exactly zero.
 #pragma once
 #include "host/lane.hpp"
 #include <numbers>
 
 namespace host {
 
-/// Constants of W(r) = alpha (1 - r/2h)^4 (1 + 2r/h) in `Dimension` dimensions, lengths in m.
-template <int Dimension> struct Kernel {
-  explicit Kernel(double smoothing_length)
-      : h(smoothing_length), support(2 * smoothing_length), half_inverse_h(0.5 / smoothing_length),
-        alpha(Dimension == 2 ? 7 / (4 * std::numbers::pi * h * h) : 21 / (16 * std::numbers::pi * h * h * h)),
-        slope(-5 * alpha / (h * h)) {}
+/// Continuous derivatives: two or four.
+enum class KernelKind { wendland_c2, wendland_c4 };
 
+/// Constants of a kernel in `Dimension` dimensions, lengths in m. With q = r/2h:
+/// C2: W = alpha (1 - q)^4 (1 + 4q); C4: W = alpha (1 - q)^6 (1 + 6q + 35/3 q^2).
+template <int Dimension> struct Kernel {
+  explicit Kernel(double smoothing_length, KernelKind kernel_kind = KernelKind::wendland_c2)
+      : kind(kernel_kind), h(smoothing_length), support(2 * smoothing_length),
+        half_inverse_h(0.5 / smoothing_length), alpha(normalisation() / volume()),
+        slope((kind == KernelKind::wendland_c2 ? -20 : -56.0 / 3) * alpha / (support * support)) {}
+
+  KernelKind kind;
   double h, support, half_inverse_h;
   double alpha; ///< W(0), 1/m^Dimension
   double slope; ///< W'(r)/r at r = 0
 
   /// W'(r)/r, so that the gradient of W at i is this times (x_i - x_j).
   template <class Real> Real gradient_factor(const Real& r) const {
-    const Real o = larger(1.0 - r * half_inverse_h, Real{});
-    return slope * (o * o * o);
+    const Real q = r * half_inverse_h, o = larger(1.0 - q, Real{});
+    const Real o3 = o * o * o;
+    if (kind == KernelKind::wendland_c2) return slope * o3;
+    return slope * (o3 * (o * o)) * (1.0 + 5.0 * q);
   }
 
   template <class Real> Real value(const Real& r) const {
-    const Real o = larger(1.0 - r * half_inverse_h, Real{});
-    const Real o2 = o * o;
-    return alpha * (o2 * o2) * (1.0 + 4.0 * half_inverse_h * r);
+    const Real q = r * half_inverse_h, o = larger(1.0 - q, Real{});
+    const Real o2 = o * o, o4 = o2 * o2;
+    if (kind == KernelKind::wendland_c2) return alpha * o4 * (1.0 + 4.0 * q);
+    return alpha * (o4 * o2) * (1.0 + q * (6.0 + (35.0 / 3) * q));
+  }
+
+private:
+  double volume() const { return Dimension == 2 ? support * support : support * support * support; }
+  double normalisation() const {
+    const bool smooth = kind == KernelKind::wendland_c4;
+    constexpr double pi = std::numbers::pi;
+    return Dimension == 2 ? (smooth ? 9 : 7) / pi : (smooth ? 495.0 / 32 : 21.0 / 2) / pi;
   }
 };
 

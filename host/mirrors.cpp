@@ -32,7 +32,9 @@ template <int D> void reflect_vector(const std::array<double, D>& n, double (&v)
 }
 
 template <int D> void reflect_velocity(const Mirror& m, const std::array<double, D>& n, double (&v)[D]) {
-  if (m.cylinder())
+  if (m.no_slip)
+    for (double& component : v) component = -component;
+  else if (m.cylinder())
     reflect_vector<D>(n, v);
   else
     v[m.axis] = -v[m.axis];
@@ -62,13 +64,13 @@ void reflect_symmetric(const std::array<double, 3>& n, StressRecord<ThreeDimensi
   reflect_symmetric(n, 2, record.strain_rate);
 }
 
-/// Stress and velocity gradient behind a mirror. Reflection turns the sign of shear on a plane; friction is a force
-/// of its own. The image in the floor lies deeper by twice the particle's height: the weight is carried on, or the
+/// Stress and velocity gradient behind a mirror. Reflection turns the sign of shear on a plane, but where nothing slips;
+/// friction is a force of its own. The image in the floor lies deeper by twice the particle's height: the weight is carried on, or the
 /// gradient of the vertical stress would vanish there.
 template <class Geometry, std::size_t D>
 void reflect_tensors(const Mirror& mirror, const std::array<double, D>& n, double depth,
                      StressRecord<Geometry>& record) {
-  reflect_symmetric(n, record);
+  if (!mirror.no_slip) reflect_symmetric(n, record);
   for (std::size_t a = 0; a < D; ++a)
     record.stress[a] -= mirror.weight_gradient * 2 * depth * (a == D - 1 ? 1 : mirror.horizontal_ratio);
 }
@@ -91,6 +93,7 @@ std::vector<Mirror> scene_mirrors(const Scene& scene) {
   if (!scene.walls.empty()) return mirrors; // then all walls are surfaces (host/wall_images.hpp)
   Mirror floor = plane_of_symmetry(solid ? 2 : 1);
   floor.wall = true;
+  floor.no_slip = scene.floor.no_slip;
   floor.weight_gradient = scene.bulk_density * scene.gravity;
   floor.horizontal_ratio = scene.earth_pressure_ratio;
   mirrors.push_back(floor);

@@ -17,6 +17,7 @@ struct Mirror {
   bool positive_side = true;
   bool wall = false;           ///< its forces are wall forces; false: the material continues
   bool gate = false;           ///< the retaining wall
+  bool no_slip = false;        ///< a plane at which velocities pass through zero: shear goes on across it
   double weight_gradient = 0;  ///< N/m3: vertical stress in the image grows downwards by it
   double horizontal_ratio = 0; ///< horizontal over vertical part of that growth
   double lower_edge = 0;       ///< m: acts on what lies above; changes in time

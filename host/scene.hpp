@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is to be simulated, in SI units: everything a run needs and nothing it computes.
 #pragma once
+#include "host/kernel.hpp"
 #include "host/vumat_block.hpp"
 #include "host/wall.hpp"
 #include <limits>
@@ -61,6 +62,7 @@ struct Gate {
 
 /// Numerical choices; their effect is measured, the defaults are the recommended ones.
 struct Numerics {
+  KernelKind kernel = KernelKind::wendland_c2;
   double smoothing_length = 1.5;      ///< in spacings
   double viscosity = 0.05;            ///< alpha of the artificial viscosity: times the wave speed
   double flow_viscosity = 25;         ///< beta: times smoothing length and velocity gradient

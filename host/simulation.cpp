@@ -128,8 +128,9 @@ template <class Record> void make_room(std::vector<Record>& records, std::size_t
 } // namespace
 
 template <class Geometry> Simulation<Geometry> start_simulation(const Scene& scene) {
-  Simulation<Geometry> s{
-      .scene = scene, .kernel = Kernel<Geometry::dimension>(scene.numerics.smoothing_length * scene.spacing)};
+  Simulation<Geometry> s{.scene = scene,
+                         .kernel = Kernel<Geometry::dimension>(
+                             scene.numerics.smoothing_length * scene.spacing, scene.numerics.kernel)};
   s.particles = make_column<Geometry>(scene);
   s.mirrors = scene_mirrors(scene);
   s.walls = all_walls(scene);

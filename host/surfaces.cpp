@@ -120,6 +120,7 @@ void find_surfaces(const std::vector<Wall>& walls, GeometryKind geometry, double
     const Wall& wall = walls[w];
     Builder<D> build{list, {}, {}};
     build.common.wall = int(w);
+    build.common.no_slip = walls[w].no_slip;
     const auto now = wall.motion.displacement(time);
     const auto before = dt > 0 ? wall.motion.displacement(time - dt) : now;
     for (int a = 0; a < D; ++a) {

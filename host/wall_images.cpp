@@ -51,8 +51,13 @@ template <int D> double stretch_of(const std::vector<Surface<D>>& surfaces, cons
   return stretch;
 }
 
-/// The velocity of the image: reflected for an observer who moves with the surface.
+/// The velocity of the image: reflected for an observer who moves with the surface; without slip reversed, so that it
+/// passes through the wall's at the wall.
 template <int D> void reflect_velocity(const Surface<D>& s, const Point<D>& n, double (&v)[D]) {
+  if (s.no_slip) {
+    for (int a = 0; a < D; ++a) v[a] = 2 * s.velocity[a] - v[a];
+    return;
+  }
   double twice = 0;
   for (int a = 0; a < D; ++a) twice += 2 * n[a] * (v[a] - s.velocity[a]);
   for (int a = 0; a < D; ++a) v[a] -= twice * n[a];
@@ -94,11 +99,18 @@ void weight_across(const Point<D>& n, double distance, const Scene& scene, doubl
     for (int b = 0; b < D; ++b) added[a][b] = (across - along) * n[a] * n[b] + (a == b ? along : 0);
 }
 
+/// Stress and strain rate behind a surface. Without slip shear goes on across it.
 template <class Geometry, int D = Geometry::dimension>
-void reflect_fields(const Point<D>& n, double depth, const Scene& scene, StressRecord<Geometry>& record) {
+void reflect_fields(const Surface<D>& s, const Point<D>& n, double depth, const Scene& scene,
+                    StressRecord<Geometry>& record) {
   double added[D][D];
   constexpr double nothing[D][D] = {};
   weight_across<D>(n, depth, scene, added);
+  if (s.no_slip) {
+    for (int a = 0; a < D; ++a)
+      for (int b = a; b < D; ++b) record.stress[component<D>(a, b)] += added[a][b];
+    return;
+  }
   reflect_symmetric<D>(n, 1, added, component<D>, record.stress);
   const auto rate = [](int a, int b) {
     return a == b ? a : component<D>(a, b) - (D == 2 ? 1 : 0);
@@ -193,7 +205,8 @@ void reflect_wall_stress(const Images& images, const std::vector<Surface<Geometr
     const auto& position = records.motion[images.list[k].source].position;
     auto& record = records.stress[images.first + k];
     record = records.stress[images.list[k].source];
-    reflect_fields<Geometry>(normal_of(surface, position), distance(surface, position), scene, record);
+    reflect_fields<Geometry>(surface, normal_of(surface, position), distance(surface, position), scene,
+                             record);
   }
 }
 

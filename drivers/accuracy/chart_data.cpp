@@ -193,7 +193,8 @@ ChartPoint ChartData::point_of(const Configuration& configuration) const {
 
 void write_points(const std::filesystem::path& file, const ChartData& data) {
   std::ofstream out(file);
-  out << "geometry,material,precision,stiffness_scale,step_factor,smoothing_length,resolution,columns,runs,"
+  out << "geometry,material,precision,stiffness_scale,step_factor,kernel,smoothing_length,resolution,columns,"
+         "runs,"
          "failures,"
          "particle_steps,seconds,height_error,radius_error,height_typical,radius_typical,height_mean,radius_"
          "mean,height_scatter,radius_"
@@ -201,9 +202,9 @@ void write_points(const std::filesystem::path& file, const ChartData& data) {
          "outline_error,dem_height_error,dem_radius_error,dem_outline_error\n";
   for (const auto& p : data.points()) {
     const auto& c = p.configuration;
-    out << fmt::format("{},{},{},{:g},{:g},{:g},{:g},{},{},{}", c.geometry, c.material, c.precision,
-                       c.stiffness_scale, c.step_factor, c.smoothing_length, c.resolution, p.columns, p.runs,
-                       p.failures);
+    out << fmt::format("{},{},{},{:g},{:g},{},{:g},{:g},{},{},{}", c.geometry, c.material, c.precision,
+                       c.stiffness_scale, c.step_factor, c.kernel, c.smoothing_length, c.resolution,
+                       p.columns, p.runs, p.failures);
     for (const double value : {p.particle_steps, p.seconds, p.error.height, p.error.radius, p.typical.height,
                                p.typical.radius, p.mean.height, p.mean.radius, p.scatter.height,
                                p.scatter.radius, p.outline_error, p.dem.height, p.dem.radius, p.dem_outline})

@@ -34,8 +34,10 @@ void add_solid(List& list) {
   solid.geometry = "quarter";
   list.add({columns[0], columns[1]}, solid, {8}, 1);
   list.add({columns[0]}, solid, {10, 12.5}, 1);
-  solid.geometry = "full";
-  list.add({columns[0]}, solid, {8}, 1);
+  for (const auto part : {"half", "full"}) {
+    solid.geometry = part;
+    list.add({columns[0]}, solid, {8}, 1);
+  }
 }
 
 void add_plane(List& list) {
@@ -61,14 +63,19 @@ void add_materials(List& list) {
   list.add(columns, single, {12.5, 20}, 1);
 }
 
-/// Step and reach of the scheme: to see, not to choose from.
+/// Step, kernel and its reach: to see, not to choose from.
 void add_scheme(List& list) {
-  Configuration step, reach;
+  Configuration step, reach, kernel;
   for (const bool more : {false, true}) {
     step.step_factor = more ? 0.8 : 0.2;
     reach.smoothing_length = more ? 1.8 : 1.3;
     list.add(columns, step, {16}, 1);
     list.add(columns, reach, {16}, 1);
+  }
+  kernel.kernel = "wendland-c4";
+  for (const double length : {1.5, 1.8}) {
+    kernel.smoothing_length = length;
+    list.add(columns, kernel, {16, 25}, 1);
   }
 }
 

@@ -9,10 +9,11 @@
 namespace drivers {
 namespace {
 
-constexpr auto header = "column,geometry,material,precision,stiffness_scale,step_factor,smoothing_length,"
-                        "resolution,repeat,failed,"
-                        "particles,steps,seconds,height,radius,rest_s,outline_error,dem_height_error,dem_"
-                        "radius_error,dem_outline_error";
+constexpr auto header =
+    "column,geometry,material,precision,stiffness_scale,step_factor,kernel,smoothing_length,"
+    "resolution,repeat,failed,"
+    "particles,steps,seconds,height,radius,rest_s,outline_error,dem_height_error,dem_"
+    "radius_error,dem_outline_error";
 
 std::string shown(double value, int digits = 6) {
   return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "";
@@ -37,9 +38,9 @@ ChartRow row_of(const CsvTable& table, std::size_t k) {
   const auto text = [&](const char* name) { return table.text(k, table.column(name)); };
   ChartRow row;
   row.column = text("column");
-  row.configuration = {text("geometry"),          text("material"),      text("precision"),
-                       number("stiffness_scale"), number("step_factor"), number("smoothing_length"),
-                       number("resolution")};
+  row.configuration = {text("geometry"),           text("material"),      text("precision"),
+                       number("stiffness_scale"),  number("step_factor"), text("kernel"),
+                       number("smoothing_length"), number("resolution")};
   row.repeat = int(number("repeat"));
   row.failed = number("failed") != 0;
   each_number(row, [&](const char* name, double& value) {
@@ -62,9 +63,9 @@ void write_chart_table(const std::filesystem::path& file, const std::vector<Char
   out << header << '\n';
   for (const auto& row : rows) {
     const auto& c = row.configuration;
-    out << fmt::format("{},{},{},{},{:g},{:g},{:g},{:g},{},{:d}", row.column, c.geometry, c.material,
-                       c.precision, c.stiffness_scale, c.step_factor, c.smoothing_length, c.resolution,
-                       row.repeat, row.failed);
+    out << fmt::format("{},{},{},{},{:g},{:g},{},{:g},{:g},{},{:d}", row.column, c.geometry, c.material,
+                       c.precision, c.stiffness_scale, c.step_factor, c.kernel, c.smoothing_length,
+                       c.resolution, row.repeat, row.failed);
     each_number(row, [&](const char* name, double value) {
       out << ',' << shown(value, name == std::string("steps") || name == std::string("particles") ? 9 : 5);
     });

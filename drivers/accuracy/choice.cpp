@@ -11,7 +11,8 @@ namespace {
 /// Numbers of the scheme that a run with a tolerance leaves alone.
 bool has_usual_scheme(const Configuration& c) {
   const Configuration usual;
-  return c.step_factor == usual.step_factor && c.smoothing_length == usual.smoothing_length;
+  return c.step_factor == usual.step_factor && c.kernel == usual.kernel &&
+         c.smoothing_length == usual.smoothing_length;
 }
 
 bool is_offered(const ChartPoint& p, bool plane, double finest) {

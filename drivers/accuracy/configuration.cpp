@@ -47,16 +47,18 @@ Words settings_of(const Configuration& c, const host::Scene& scene, const std::s
   };
   set("material.stiffness_scale", c.stiffness_scale, defaults.stiffness_scale);
   set("numerics.step_factor", c.step_factor, defaults.step_factor);
+  if (c.kernel != defaults.kernel) settings.push_back("numerics.kernel=" + c.kernel);
   set("numerics.smoothing_length", c.smoothing_length, defaults.smoothing_length);
   return settings;
 }
 
 std::string described(const Configuration& c) {
-  const bool solid = c.geometry == "quarter" || c.geometry == "full";
+  const bool solid = c.geometry == "quarter" || c.geometry == "half" || c.geometry == "full";
   std::string text = solid ? "three dimensions, " + c.geometry : c.geometry;
   text += c.material == "simsand" ? ", SIMSAND" : ", " + c.material;
   text += fmt::format(", {} precision, stiffness scale {:g}", c.precision, c.stiffness_scale);
   if (c.step_factor != defaults.step_factor) text += fmt::format(", step factor {:g}", c.step_factor);
+  if (c.kernel != defaults.kernel) text += ", kernel " + c.kernel;
   if (c.smoothing_length != defaults.smoothing_length)
     text += fmt::format(", smoothing length {:g} spacings", c.smoothing_length);
   return text;
@@ -68,6 +70,7 @@ std::string short_name(const Configuration& c) {
   if (c.precision != defaults.precision) name += "_" + c.precision;
   if (c.stiffness_scale != 1) name += fmt::format("_stiffness{:g}", c.stiffness_scale);
   if (c.step_factor != defaults.step_factor) name += fmt::format("_step{:g}", c.step_factor);
+  if (c.kernel != defaults.kernel) name += "_" + c.kernel;
   if (c.smoothing_length != defaults.smoothing_length)
     name += fmt::format("_smoothing{:g}", c.smoothing_length);
   return name;

@@ -9,12 +9,12 @@
 namespace drivers {
 
 struct Configuration {
-  std::string geometry =
-      "axisymmetric";               ///< or "plane_strain", "quarter", "full" (the last two three-dimensional)
+  std::string geometry = "axisymmetric"; ///< or "plane_strain"; three-dimensional: "quarter", "half", "full"
   std::string material = "simsand"; ///< or "drucker_prager"; "calibrated": SIMSAND by parameters of DEM tests
   std::string precision = "double"; ///< or "single": of the material's update
   double stiffness_scale = 1;       ///< of SIMSAND's K0
   double step_factor = 0.4;
+  std::string kernel = "wendland-c2";
   double smoothing_length = 1.5; ///< spacings
   double resolution = 20; ///< particles in the side of a square as large as the column: sqrt(r0 h0) / spacing
 

@@ -15,7 +15,8 @@ namespace {
 constexpr double smallest_grain = 2.95e-3 / 70.71e-3; // of the chart's columns, over sqrt(r0 h0)
 const Words chosen_keys = {
     "scene.geometry",   "scene.sector",  "scene.spacing",        "material.stiffness_scale",
-    "material.library", "material.name", "numerics.step_factor", "numerics.smoothing_length"};
+    "material.library", "material.name", "numerics.step_factor", "numerics.smoothing_length",
+    "numerics.kernel"};
 
 void refuse_chosen_settings(const Words& settings) {
   for (const auto& setting : settings) {
@@ -53,6 +54,9 @@ void refuse_other_numerics(const TomlTable& root, const host::Scene& scene) {
           key, fmt::format("the default {:g} beside --tolerance, for which the chart's data hold", expected),
           fmt::format("{:g}", value));
   };
+  if (n.kernel != usual.kernel)
+    table.fail("kernel", "the default beside --tolerance, for which the chart's data hold",
+               table.text("kernel"));
   check("smoothing_length", n.smoothing_length, usual.smoothing_length);
   check("viscosity", n.viscosity, usual.viscosity);
   check("flow_viscosity", n.flow_viscosity, usual.flow_viscosity);

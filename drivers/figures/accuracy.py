@@ -14,16 +14,17 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-WORDS = ("geometry", "material", "precision", "column")
+WORDS = ("geometry", "material", "precision", "kernel", "column")
 USUAL = {"geometry": "axisymmetric", "material": "simsand", "precision": "double", "stiffness_scale": 1.0,
-         "step_factor": 0.4, "smoothing_length": 1.5}
+         "step_factor": 0.4, "kernel": "wendland-c2", "smoothing_length": 1.5}
 # Okabe and Ito: apart for colour-blind readers.
 STYLE = {"SIMSAND, axisymmetric": ("#000000", "o"), "stiffness scale 0.3": ("#56B4E9", "v"),
          "stiffness scale 0.1": ("#0072B2", "v"), "stiffness scale 0.03": ("#CC79A7", "v"),
          "Drucker-Prager": ("#D55E00", "s"), "single precision": ("#009E73", "P"),
          "step factor 0.2": ("#E69F00", "<"), "step factor 0.8": ("#E69F00", ">"),
          "smoothing length 1.3": ("#009E73", "<"), "smoothing length 1.8": ("#009E73", ">"),
-         "quarter, 3-D": ("#D55E00", "D"), "full, 3-D": ("#D55E00", "*"), "calibrated on DEM": ("#0072B2", "X")}
+         "Wendland C4": ("#E69F00", "h"), "Wendland C4, length 1.8": ("#CC79A7", "h"),
+         "quarter, 3-D": ("#D55E00", "D"), "half, 3-D": ("#D55E00", "p"), "full, 3-D": ("#D55E00", "*"), "calibrated on DEM": ("#0072B2", "X")}
 plt.rcParams.update({"font.size": 9, "savefig.dpi": 130, "legend.frameon": False})
 
 
@@ -39,12 +40,14 @@ def table(file):
 
 def kind(row):
     """Name of what departs from the default."""
-    if row["geometry"] in ("quarter", "full"):
+    if row["geometry"] in ("quarter", "half", "full"):
         return f"{row['geometry']}, 3-D"
     if row["material"] != "simsand":
         return {"drucker_prager": "Drucker-Prager", "calibrated": "calibrated on DEM"}[row["material"]]
     if row["precision"] == "single":
         return "single precision"
+    if row["kernel"] == "wendland-c4":
+        return "Wendland C4" + (f", length {row['smoothing_length']:g}" if row["smoothing_length"] != 1.5 else "")
     for key in ("stiffness_scale", "step_factor", "smoothing_length"):
         if row[key] != USUAL[key]:
             return f"{key.replace('_', ' ')} {row[key]:g}"
@@ -62,15 +65,19 @@ def front_of(points, error):
 
 
 def panel(ax, points, error, label, finest):
-    """Cost against error; the front in colour, what is dominated in grey."""
+    """Cost against error; the front in colour, what is dominated in grey, what was run on fewer columns hollow."""
     shown = [p for p in points if np.isfinite(p[error]) and p["failures"] == 0 and
              (finest is None or p["resolution"] < finest)]
-    front = front_of(shown, error)
+    most = max(p["columns"] for p in shown)
+    front = front_of([p for p in shown if p["columns"] == most], error)
     for p in shown:
         colour, marker = STYLE[kind(p)]
-        on = p in front
-        ax.plot(p["seconds"], 100 * p[error], marker, color=colour if on else "0.75", ms=7 if on else 5,
+        on, fewer = p in front, p["columns"] < most
+        ax.plot(p["seconds"], 100 * p[error], marker, color=colour if on or fewer else "0.75", ms=7 if on else 5,
                 mfc=colour if on else "none", zorder=3 if on else 2)
+        if fewer:
+            ax.annotate(f"{p['resolution']:g}", (p["seconds"], 100 * p[error]), xytext=(4, -8),
+                        textcoords="offset points", fontsize=6, color=colour)
     ax.step([p["seconds"] for p in front], [100 * p[error] for p in front], where="post", color="0.4", lw=1, zorder=1)
     for p in front:
         ax.annotate(f"{p['resolution']:g}", (p["seconds"], 100 * p[error]), xytext=(5, 5), textcoords="offset points",
@@ -88,6 +95,8 @@ def panel(ax, points, error, label, finest):
 def legend(fig, kinds):
     handles = [plt.Line2D([], [], marker=STYLE[k][1], color=STYLE[k][0], ls="none", label=k) for k in STYLE if k in kinds]
     handles += [plt.Line2D([], [], marker="o", mfc="none", color="0.75", ls="none", label="dominated (any)"),
+                plt.Line2D([], [], marker="D", mfc="none", color="#D55E00", ls="none", ms=5,
+                           label="fewer columns (hollow)"),
                 plt.Line2D([], [], color="0.4", lw=1, label="Pareto front")]
     fig.legend(handles=handles, loc="lower center", ncols=6, fontsize=8)
 

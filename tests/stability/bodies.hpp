@@ -32,8 +32,8 @@ inline host::Simulation<host::PlaneStrain> make_body(double spacing, double exte
   scene.material = elastic_material();
   scene.bulk_density = body_density;
   scene.numerics = numerics;
-  host::Simulation<host::PlaneStrain> s{.scene = scene,
-                                        .kernel = host::Kernel<2>(numerics.smoothing_length * spacing)};
+  host::Simulation<host::PlaneStrain> s{
+      .scene = scene, .kernel = host::Kernel<2>(numerics.smoothing_length * spacing, numerics.kernel)};
   auto& p = s.particles;
   p.resize(int(places.size()), 0);
   for (int i = 0; i < p.count; ++i) {

@@ -13,8 +13,9 @@ inline constexpr double spacing = 0.002; // m
 /// Room for `count` particles and nothing else yet.
 template <class Geometry>
 host::Simulation<Geometry> empty_cloud(int count, const host::Scene& scene = {}, int state_variables = 0) {
-  host::Simulation<Geometry> s{
-      .scene = scene, .kernel = host::Kernel<Geometry::dimension>(scene.numerics.smoothing_length * spacing)};
+  host::Simulation<Geometry> s{.scene = scene,
+                               .kernel = host::Kernel<Geometry::dimension>(
+                                   scene.numerics.smoothing_length * spacing, scene.numerics.kernel)};
   s.particles.resize(count, state_variables);
   return s;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernel: a partition of unity in two and three dimensions, its slope, its end.
+// The kernels: a partition of unity in two and three dimensions, its slope, its end.
 #include "host/kernel.hpp"
 #include <gtest/gtest.h>
 
@@ -8,6 +8,10 @@ namespace {
 using namespace host;
 
 constexpr double h = 0.003; // m
+
+class Kernels : public testing::TestWithParam<KernelKind> {};
+INSTANTIATE_TEST_SUITE_P(Wendland, Kernels, testing::Values(KernelKind::wendland_c2, KernelKind::wendland_c4),
+                         [](const auto& at) { return at.param == KernelKind::wendland_c2 ? "C2" : "C4"; });
 
 /// Simpson's rule over the support; the integrand is a polynomial.
 template <class F> double integral(const F& f) {
@@ -18,26 +22,26 @@ template <class F> double integral(const F& f) {
   return sum * width / 3;
 }
 
-TEST(Kernel, IntegratesToOne) {
-  const Kernel<2> disc(h);
-  const Kernel<3> ball(h);
+TEST_P(Kernels, IntegratesToOne) {
+  const Kernel<2> disc(h, GetParam());
+  const Kernel<3> ball(h, GetParam());
   constexpr double pi = std::numbers::pi;
   EXPECT_NEAR(integral([&](double r) { return 2 * pi * r * disc.value(r); }), 1, 1e-12);
   EXPECT_NEAR(integral([&](double r) { return 4 * pi * r * r * ball.value(r); }), 1, 1e-12);
 }
 
-TEST(Kernel, SecondMomentOfTheSlopeIsOneInEachDirection) {
+TEST_P(Kernels, SecondMomentOfTheSlopeIsOneInEachDirection) {
   // Partial integration: the moment matrix of a complete support is the unit matrix.
-  const Kernel<2> disc(h);
-  const Kernel<3> ball(h);
+  const Kernel<2> disc(h, GetParam());
+  const Kernel<3> ball(h, GetParam());
   constexpr double pi = std::numbers::pi;
   EXPECT_NEAR(integral([&](double r) { return -pi * r * r * r * disc.gradient_factor(r); }), 1, 1e-12);
   EXPECT_NEAR(integral([&](double r) { return -4 * pi / 3 * r * r * r * r * ball.gradient_factor(r); }), 1,
               1e-12);
 }
 
-TEST(Kernel, SlopeIsThatOfItsValue) {
-  const Kernel<2> kernel(h);
+TEST_P(Kernels, SlopeIsThatOfItsValue) {
+  const Kernel<2> kernel(h, GetParam());
   for (double r = 0.05 * h; r < 2 * h; r += 0.1 * h) {
     const double step = 1e-4 * h;
     const double difference = (kernel.value(r + step) - kernel.value(r - step)) / (2 * step);
@@ -46,8 +50,8 @@ TEST(Kernel, SlopeIsThatOfItsValue) {
   EXPECT_DOUBLE_EQ(kernel.gradient_factor(0.0), kernel.slope);
 }
 
-TEST(Kernel, IsExactlyZeroBeyondItsSupport) {
-  const Kernel<2> kernel(h);
+TEST_P(Kernels, IsExactlyZeroBeyondItsSupport) {
+  const Kernel<2> kernel(h, GetParam());
   for (const double r : {kernel.support * (1 + 1e-15), 2.001 * h, 1.0, 1e30}) {
     EXPECT_EQ(kernel.value(r), 0);
     EXPECT_EQ(kernel.gradient_factor(r), 0);
@@ -56,8 +60,8 @@ TEST(Kernel, IsExactlyZeroBeyondItsSupport) {
   EXPECT_LT(kernel.gradient_factor(1.999 * h), 0);
 }
 
-TEST(Kernel, LanesAgreeWithSingleNumbers) {
-  const Kernel<2> kernel(h);
+TEST_P(Kernels, LanesAgreeWithSingleNumbers) {
+  const Kernel<2> kernel(h, GetParam());
   for (int first = 0; first < 32; first += lanes) {
     Lane r;
     for (int l = 0; l < lanes; ++l) r[l] = 0.1 * (first + l) * h;
