@@ -98,6 +98,8 @@ TEST(ToleranceRun, RefusesWhatConflicts) {
           "--set scene.spacing=0.002: expected no such key");
   refused(coarse + " --tolerance 12% --set numerics.viscosity=0.1",
           "key 'numerics.viscosity': expected the default 0.05");
+  refused(coarse + " --tolerance 12% --set numerics.kernel=wendland-c4",
+          "--set numerics.kernel=wendland-c4: expected no such key");
   const auto read = [](const std::string& path) { return std::ifstream(path); };
   std::stringstream text;
   text << read(coarse).rdbuf();
