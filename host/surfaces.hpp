@@ -11,8 +11,8 @@ namespace host {
 template <int D> struct Point : std::array<double, std::size_t(D)> {};
 
 template <int D> struct Surface {
-  int wall = 0; ///< position in `all_walls`
-  bool no_slip = false;
+  int wall = 0;                ///< position in `all_walls`
+  bool no_slip = false;        ///< of that wall
   bool mantle = false;         ///< of a cylinder about the vertical axis; else a plane
   Point<D> point{}, normal{};  ///< plane: a point of it, unit normal towards the sand
   double radius = 0, side = 1; ///< mantle; side 1: sand outside, -1: inside

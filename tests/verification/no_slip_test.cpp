@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls without slip against a closed form: an elastic layer between two plates, one of which moves along itself. Between
+// Walls without slip against a closed form: an elastic layer between two plates that slide past each other. Between
 // them the shear stress is even, G times way over distance. Images that slipped, as behind smooth walls, gave 0.85 of it at
 // ten particles across and tore even layers from odd ones by half of the way.
 #include "tests/verification/walls_fixture.hpp"
@@ -13,9 +13,8 @@ constexpr double half_width = 0.02, height = 0.12, spacing = 0.004, young = 1e6,
 constexpr double modulus = young / (2 * (1 + poisson)); // of shear, Pa
 constexpr double way = 2e-5, duration = 0.05; // m, s: slow beside the 5 ms of a shear wave to and fro
 
-/// Plates to the left and to the right, one moving down, one up, on a smooth base
-/// and, in three dimensions, between smooth sides. The layer is under its own weight, as noise
-/// grows in what is sheared alone.
+/// Plates to the left and to the right, one moving down, one up, on a smooth base and, in three dimensions, between
+/// smooth sides. The layer is under its own weight, as noise grows in what is sheared alone.
 template <class Geometry> WallCase layer(const std::string& friction) {
   constexpr bool solid = Geometry::dimension == 3;
   const std::string zero = solid ? "0, 0" : "0";
