@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/recorder.hpp"
+#include "drivers/build_hash.hpp"
 #include "drivers/version.hpp"
 #include "host/geometry.hpp"
 #include "host/guard.hpp"
@@ -107,6 +108,7 @@ template <class Geometry> host::ResultHeader header_of(const host::Simulation<Ge
   return {s.scene.resolved,
           version,
           compiler,
+          build_hash("/proc/self/exe", s.scene.material.library.path),
           Geometry::name,
           Geometry::dimension,
           std::size_t(s.particles.count)};

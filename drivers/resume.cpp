@@ -1,31 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/resume.hpp"
+#include "drivers/build_hash.hpp"
 #include "drivers/scene_difference.hpp"
 #include "drivers/scene_file.hpp"
 #include "drivers/version.hpp"
 #include "host/result_read.hpp"
 #include <fmt/format.h>
-#include <fstream>
 #include <spdlog/spdlog.h>
-#include <sstream>
 
 namespace drivers {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-/// FNV-1a, 64 bit: tells files apart that differ by accident.
-std::string hash_of(const fs::path& path) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : content(path)) hash = (hash ^ std::uint8_t(c)) * 1099511628211ULL;
-  return fmt::format("{:016x}", hash);
-}
 
 struct Found {
   fs::path path;
@@ -75,7 +61,7 @@ void check(const Found& found, const std::optional<std::string>& scene, const st
 }
 
 void check_library(const Found& found, const host::Scene& scene) {
-  if (hash_of(scene.material.library.path) != found.header.library_hash)
+  if (file_hash(scene.material.library.path) != found.header.library_hash)
     spdlog::warn("{}: the material library has changed since {} was written: the numbers may differ from "
                  "those of an uninterrupted run",
                  scene.material.library.path, found.path.string());
@@ -137,7 +123,7 @@ std::optional<Resumption> find_resumption(const std::string& what, const std::st
 host::CheckpointHeader header_of(const host::Scene& scene) {
   const auto& library = scene.material.library.path;
   const std::string geometry = host::with_geometry(scene.geometry, [](auto g) { return g.name; });
-  return {scene.resolved, version, compiler, geometry, library, hash_of(library)};
+  return {scene.resolved, version, compiler, geometry, library, file_hash(library)};
 }
 
 void remove_newer_checkpoint(const fs::path& read) {

@@ -179,6 +179,7 @@ void add_study_options(CLI::App& command, drivers::StudyOptions& options) {
   command.add_option("-j,--jobs", options.parallel, "runs at a time")->check(CLI::Range(1, 1024));
   command.add_option("--data", options.data, "data folder of the project");
   command.add_flag("-q,--quiet", options.quiet, "no progress");
+  command.add_flag("--again", options.again, "run complete ones again that another build has made");
 }
 
 void add_study(CLI::App& app) {

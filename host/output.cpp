@@ -86,6 +86,7 @@ struct ResultFile::Impl {
     attribute(file, "format_version", format_version);
     attribute(file, "simsand_version", header.version);
     attribute(file, "compiler", header.compiler);
+    attribute(file, "build", header.build);
     attribute(file, "geometry", header.geometry);
     attribute(file, "dimension", header.dimension);
     attribute(file, "complete", int(complete));

@@ -18,7 +18,8 @@ struct ResultHeader {
   std::string scene;    ///< the resolved scene, TOML: a run of this text gives the same numbers
   std::string version;  ///< of the program
   std::string compiler; ///< compiler and its flags
-  std::string geometry; ///< "axisymmetric" or "plane_strain"
+  std::string build;    ///< of the program's file and of the material library, hashes
+  std::string geometry; ///< "axisymmetric", "plane_strain" or "three_dimensional"
   int dimension = 2;
   std::size_t particles = 0; ///< length of every particle dataset
 };

@@ -118,6 +118,15 @@ bool is_complete_result(const std::filesystem::path& path) {
   }
 }
 
+std::string stored_build(const std::filesystem::path& path) {
+  H5::Exception::dontPrint();
+  try {
+    return text_of(open_to_read(path), "build");
+  } catch (const H5::Exception&) {
+    return "";
+  }
+}
+
 std::string stored_scene(const std::filesystem::path& path) {
   H5::Exception::dontPrint();
   std::error_code error;

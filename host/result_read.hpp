@@ -24,6 +24,9 @@ StoredRun read_stored_run(const std::filesystem::path& path);
 /// The resolved scene in a result file or checkpoint. Throws std::runtime_error naming the file.
 std::string stored_scene(const std::filesystem::path& path);
 
+/// Attribute `build` of a result: hashes of the program and of the material library. Empty if it cannot be read.
+std::string stored_build(const std::filesystem::path& path);
+
 /// False also if there is no such file or it cannot be read.
 bool is_complete_result(const std::filesystem::path& path);
 

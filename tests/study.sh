@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The studies on coarse grids: tables, pictures and pages are written, complete runs are not run again, a run that
-# fails is named.
+# The studies on coarse grids: tables, pictures and pages are written, complete runs are not run again, those of another
+# build are told, a run that fails is named.
 #   study.sh SIMSAND
 set -euo pipefail
-simsand=$1
+simsand=$(realpath "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "study.sh: $*" >&2; exit 1; }
@@ -37,6 +37,18 @@ head -n 1 "$folder/columns/table4.csv" | grep -q "^shape,packing,a,void_ratio,he
 [[ $(wc -l < "$folder/columns/cost.csv") == 11 ]] || fail "cost.csv has not one row for each set and spacing"
 grep -q 'src="http' "$folder/columns/index.html" && fail "the page is not self-contained"
 grep -q "data:image/png" "$folder/columns/index.html" || fail "the page has no pictures"
+
+# A result of another build is named, and run again where that is asked for.
+one=("$simsand" study columns --spacing 0.005 --sets table4 --only ss_dense_a0.5 -o "$folder/columns")
+/usr/bin/python3 -c 'import h5py, sys; h5py.File(sys.argv[1], "r+").attrs["build"] = "another"' \
+  "$folder/columns/5mm/table4/ss_dense_a0.5/result.h5"
+"${one[@]}" > "$folder/third.log" 2>&1 || { cat "$folder/third.log" >&2; fail "a result of another build failed"; }
+grep -q "1 of 1 complete results are of another build" "$folder/third.log" || fail "another build is not named"
+grep -q "1 runs, 0 of them to do" "$folder/third.log" || fail "a result of another build was run again unasked"
+"${one[@]}" --again > "$folder/fourth.log" 2>&1 || { cat "$folder/fourth.log" >&2; fail "--again failed"; }
+grep -q "1 runs, 1 of them to do" "$folder/fourth.log" || fail "--again did not run"
+"${one[@]}" > "$folder/fifth.log" 2>&1 || { cat "$folder/fifth.log" >&2; fail "a run made again failed"; }
+grep -q "another build" "$folder/fifth.log" && fail "a run made again is still of another build"
 
 "$simsand" study channel --spacing 0.02 -o "$folder/channel" > "$folder/channel.log" 2>&1 ||
   { cat "$folder/channel.log" >&2; fail "channel failed"; }

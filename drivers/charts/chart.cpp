@@ -107,6 +107,7 @@ void add_accuracy(CLI::App& app) {
   accuracy->add_option("--data", study.data, "data folder of the project");
   accuracy->add_flag("--quick", options.quick, "a few coarse runs, to see it work");
   accuracy->add_flag("-q,--quiet", study.quiet, "no progress");
+  accuracy->add_flag("--again", study.again, "run complete ones again that another build has made");
   accuracy->callback([] { drivers::chart_accuracy(options); });
 }
 

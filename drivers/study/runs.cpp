@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/runs.hpp"
+#include "drivers/build_hash.hpp"
 #include "drivers/resume.hpp"
 #include "drivers/scene_file.hpp"
 #include "drivers/study/jobs.hpp"
@@ -22,14 +23,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path result_of(const StudyRun& run) {
+  return fs::path(run.folder) / "result.h5";
+}
+
 bool is_done(const StudyRun& run, const host::Scene& scene) {
-  const auto result = fs::path(run.folder) / "result.h5";
+  const auto result = result_of(run);
   try {
     return fs::exists(result) && host::stored_scene(result) == scene.resolved &&
            host::is_complete_result(result);
   } catch (const std::runtime_error&) {
     return false; // unreadable: run it again
   }
+}
+
+/// Whether this program, with the material library as it is now, made the result.
+bool is_of_this_build(const StudyRun& run, const host::Scene& scene) {
+  static const auto program = host::beside_program("simsand");
+  return host::stored_build(result_of(run)) == build_hash(program, scene.material.library.path);
 }
 
 /// Of the column at the scene's spacing, about.
@@ -77,15 +88,30 @@ Job job_of(const StudyRun& run, const host::Scene& scene) {
   return job;
 }
 
-} // namespace
-
-void run_missing(std::vector<StudyRun> runs, const StudyOptions& options) {
+/// Those to do.
+std::vector<Job> missing(std::vector<StudyRun>& runs, bool again) {
   std::vector<Job> jobs;
+  int done = 0, older = 0;
   for (auto& run : runs) {
     run.settings.push_back("output.folder=" + run.folder);
     const auto scene = read_scene(run.scene, run.settings);
-    if (!is_done(run, scene)) jobs.push_back(job_of(run, scene));
+    const bool complete = is_done(run, scene), other = complete && !is_of_this_build(run, scene);
+    if (!complete || (other && again))
+      jobs.push_back(job_of(run, scene));
+    else
+      ++done, older += other;
   }
+  if (older > 0)
+    spdlog::warn("{} of {} complete results are of another build of simsand or of its material: --again runs "
+                 "them again",
+                 older, done);
+  return jobs;
+}
+
+} // namespace
+
+void run_missing(std::vector<StudyRun> runs, const StudyOptions& options) {
+  const auto jobs = missing(runs, options.again);
   const JobLimits limits{options.parallel, 0.8 * available_memory()};
   if (!options.quiet)
     spdlog::info("{} runs, {} of them to do, {} at a time", runs.size(), jobs.size(), options.parallel);
@@ -94,7 +120,7 @@ void run_missing(std::vector<StudyRun> runs, const StudyOptions& options) {
         if (ok && job.whole)
           std::ofstream(fs::path(job.log).parent_path() / "cpu_seconds") << cpu_seconds << '\n';
         if (!options.quiet)
-          spdlog::info("{:<28}{:<8}{:3} left, about {:.1f} minutes", job.name, ok ? "done" : "failed", left,
+          spdlog::info("{:<36}{:<8}{:3} left, about {:.1f} minutes", job.name, ok ? "done" : "failed", left,
                        seconds / 60);
       });
   if (!failed.empty())

@@ -11,6 +11,7 @@ struct StudyOptions {
   std::string data;   ///< the project's data folder
   int parallel = 2;   ///< runs at a time, one thread each
   bool quiet = false;
+  bool again = false; ///< run complete ones again that another build has made
 };
 
 struct StudyRun {
@@ -21,7 +22,7 @@ struct StudyRun {
 };
 
 /// Runs those that have no complete result of exactly this scene, as many at a time as `parallel` and the memory
-/// allow; interrupted ones go on from their checkpoints. Leaves beside each result the processor's seconds
+/// allow, and warns of results of another build, unless they are to be run again; interrupted ones go on from their checkpoints. Leaves beside each result the processor's seconds
 /// (`cpu_seconds`), but not of a run that was interrupted. Throws std::runtime_error naming the runs that failed and
 /// their logs, after all others have ended.
 void run_missing(std::vector<StudyRun> runs, const StudyOptions& options);

@@ -27,7 +27,13 @@ std::filesystem::path folder(const std::string& name) {
 }
 
 ResultHeader header(std::size_t particles) {
-  return {"[scene]\nspacing = 0.002\n", "0.1.0", "g++ 12.2.0 -O3", "axisymmetric", 2, particles};
+  return {"[scene]\nspacing = 0.002\n",
+          "0.1.0",
+          "g++ 12.2.0 -O3",
+          "0123456789abcdef fedcba9876543210",
+          "axisymmetric",
+          2,
+          particles};
 }
 
 const std::vector<Quantity> two_columns = {{"time", "s"}, {"height", "m"}};

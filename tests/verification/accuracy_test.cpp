@@ -111,6 +111,9 @@ TEST(ToleranceRun, RefusesWhatConflicts) {
   program.write("soft.toml", scene);
   refused("soft.toml --tolerance 12%",
           "key 'material.stiffness_scale': expected no such key beside --tolerance");
+  scene.replace(scene.find("stiffness_scale = 0.5"), 21, "");
+  program.write("kernel.toml", scene + "\n[numerics]\nkernel = \"wendland-c4\"\n");
+  refused("kernel.toml --tolerance 12%", "key 'numerics.kernel': expected the default beside --tolerance");
 }
 
 /// A fit of two parameters to one made test, with a short chain.
