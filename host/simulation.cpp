@@ -137,6 +137,7 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   s.loads.resize(s.walls.size());
   if (!scene.walls.empty()) find_surfaces(s.walls, scene.geometry, 0, 0, s.surfaces);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
+  s.blocks.loosest = 0.5 * scene.bulk_density;
   s.blocks.failure_state = scene.failure_state;
   s.blocks.tolerance = scene.numerics.wave_speed_tolerance;
   if (scene.material.frame == Frame::green_naghdi) carry_deformation(s.particles);

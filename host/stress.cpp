@@ -20,10 +20,22 @@ StressBlocks make_stress_blocks(const Material& material, const Particles<Geomet
 
 namespace {
 
-/// Strain increments, turned old stress and densities of particles first, first + 1, ...; density is advanced.
+/// Particles that bear next to nothing, at less than the density `loosest`: thrown off. Nothing there holds a volume
+/// to be strained; its density would drift with what passes by, down to a hundredth of the sand's, and push walls
+/// and neighbours away as if the particle filled all of it.
+template <std::size_t S>
+auto is_thrown_off(const Lane& density, const Lane& wave_speed, const std::array<Lane, S>& stress,
+                   double loosest) {
+  constexpr double nothing = 1e-3; // of the constrained modulus
+  const Lane pressure = -(stress[0] + stress[1] + stress[2]) / 3;
+  return density < loosest && pressure >= 0.0 && pressure <= nothing * density * wave_speed * wave_speed;
+}
+
+/// Strain increments, turned old stress and densities of particles first, first + 1, ...; density is advanced. What is
+/// thrown off is not strained to a larger volume.
 template <class Geometry>
 void strain_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, double dt,
-                  double spacing, bool turning, VumatBlock& b) {
+                  const StressBlocks& blocks, bool turning, VumatBlock& b) {
   constexpr int D = Geometry::dimension, S = Geometry::stress_components;
   for (int k = 0; k < b.points; k += lanes) {
     const int i = first + k, used = std::min(lanes, b.points - k);
@@ -32,13 +44,19 @@ void strain_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradien
     for (int e = 0; e < D * D; ++e) slope[e] = load(&gradient.component[e][k]);
     for (int c = 0; c < S; ++c) stress[c] = load(&p.stress[c][i]);
     const auto step =
-        step_strain<Geometry>(slope, load(&p.position[0][i]), load(&p.velocity[0][i]), dt, spacing);
+        step_strain<Geometry>(slope, load(&p.position[0][i]), load(&p.velocity[0][i]), dt, blocks.spacing);
     if (turning) stress = turned(stress, step.angle);
+    const Lane density = load(&p.density[i]);
+    Lane volumetric = step.strain[0] + step.strain[1] + step.strain[2];
+    const Lane spread = is_thrown_off(density, load(&p.wave_speed[i]), stress, blocks.loosest)
+                            ? larger(volumetric, Lane{})
+                            : Lane{};
+    volumetric -= spread;
     for (int c = 0; c < S; ++c) {
-      store(&b.strain_increment[c * b.points + k], step.strain[c], used);
+      store(&b.strain_increment[c * b.points + k], c < 3 ? step.strain[c] - spread / 3 : step.strain[c],
+            used);
       store(&b.stress_old[c * b.points + k], stress[c], used);
     }
-    const Lane volumetric = step.strain[0] + step.strain[1] + step.strain[2], density = load(&p.density[i]);
     store(&b.density[k], density * (1 - 0.25 * volumetric) / (1 + 0.25 * volumetric), used); // mid-increment
     store(&p.density[i], density * (1 - 0.5 * volumetric) / (1 + 0.5 * volumetric),
           used); // exp(-volumetric) to third order
@@ -63,7 +81,7 @@ void advance_stress(Particles<Geometry>& p, const Material& material, const Incr
                     VumatBlock& b, Failure& failure) {
   const bool corotational = material.frame == Frame::green_naghdi;
   pack(p, first, blocks.spacing, b);
-  strain_block(p, gradient, first, increment.dt, blocks.spacing, !corotational, b);
+  strain_block(p, gradient, first, increment.dt, blocks, !corotational, b);
   if (corotational) enter_corotational(p, gradient, first, increment.dt, b);
   call_vumat(material, increment, b);
   if (note_failure([=](int k) { return first + k; }, material, increment, b, blocks.failure_state, failure))

@@ -211,6 +211,49 @@ std::string error_of_update(Particles<PlaneStrain>& p, const Material& material,
   return "no error";
 }
 
+/// Shows the material what it has of strain as stress.
+void shows_strain(const int* nblock, const int*, const int* nshr, const int*, const int*, const int*,
+                  const int*, const double*, const double*, const double*, const char*, const double*,
+                  const double*, const double*, const double*, const double* strain, const double*,
+                  const double*, const double*, const double*, const double*, const double*, const double*,
+                  const double*, const double*, const double*, const double*, const double*, const double*,
+                  double* stress, double*, double*, double*, std::size_t) {
+  std::copy_n(strain, *nblock * (3 + *nshr), stress);
+}
+
+TEST(Stress, WhatIsThrownOffIsNotStrainedFurtherApart) {
+  constexpr double rate = 10; // 1/s, in each of the three directions
+  struct Case {
+    const char* name;
+    double density, rate, stress;
+    bool kept;
+  };
+  for (const auto& c :
+       {Case{"thrown off", 600, rate, 0, true}, Case{"it comes together", 600, -rate, 0, false},
+        Case{"loose", 800, rate, 0, false}, Case{"it bears", 600, rate, -1e4, false},
+        Case{"it holds together", 600, rate, 1e4, false}}) {
+    auto p = random_particles<ThreeDimensional>(70);
+    for (auto* arrays : {&p.stress, &p.stress_diffusion})
+      for (auto& a : *arrays) a.assign(a.size(), 0.0);
+    for (int s = 0; s < 3; ++s) p.stress[s].assign(p.padded(), c.stress);
+    for (auto& g : p.velocity_gradient) g.assign(g.size(), 0.0);
+    for (const int e : {0, 4, 8}) p.velocity_gradient[e].assign(p.padded(), c.rate);
+    p.velocity_gradient[1].assign(p.padded(), 2 * rate);
+    p.density.assign(p.padded(), c.density);
+    p.wave_speed.assign(p.padded(), 40); // constrained modulus 960 kPa
+    auto blocks = make_stress_blocks(elastic(), p, 0.002);
+    blocks.loosest = 750;
+    const Material shown{{"shows_strain", nullptr, shows_strain}, "SHOWN", {0.0}, 0};
+    update_stress(p, shown, {dt, dt, dt}, blocks);
+    const double strain = c.kept ? 0 : c.rate * dt;
+    for (int i = 0; i < p.count; ++i) {
+      for (int s = 0; s < 3; ++s) EXPECT_NEAR(p.stress[s][i], strain, 1e-15) << c.name;
+      EXPECT_NEAR(p.stress[3][i], rate * dt, 1e-15) << c.name; // shear goes on
+      EXPECT_NEAR(p.density[i], c.density * std::exp(-3 * strain), 3e-9 * c.density) << c.name; // third order
+    }
+  }
+}
+
 TEST(Stress, NamesTheFirstParticleWithoutANumber) {
   for (const int first : {0, 3, 64, 150, 196})
     for (const double in_state : {0, 1}) {
