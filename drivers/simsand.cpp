@@ -54,8 +54,7 @@ void add_run_kinds(CLI::App& run, drivers::ToleranceOptions& one, calibration::P
                            "--tolerance",
                            [&one](const std::string& text) { one.tolerance = drivers::read_tolerance(text); },
                            "as 5%: chooses resolution, geometry, material, stiffness scale and precision for "
-                           "h_f and r_f within it, and "
-                           "estimates their error (drivers/charts/ACCURACY.md)")
+                           "h_f and r_f within it, and estimates their error (drivers/charts/ACCURACY.md)")
                         ->excludes("--resume")
                         ->excludes("--plan");
   run.add_option("--data", one.data, "data folder of the project, with the chart of --tolerance");
@@ -172,7 +171,7 @@ void add_abaqus(CLI::App& app) {
 
 /// What all studies ask for.
 void add_study_options(CLI::App& command, drivers::StudyOptions& options) {
-  options.data = std::filesystem::weakly_canonical(host::beside_program("../data")).string();
+  options.data = data_folder();
   options.parallel = int(std::thread::hardware_concurrency());
   command.add_option("-o,--output", options.folder, "folder for runs, tables, pictures and the page")
       ->capture_default_str();

@@ -19,7 +19,7 @@ struct StressBlocks {
   static constexpr int points = 64; ///< per call
   int failure_state = -1;           ///< position in STATEV that is negative after a failed update; -1: none
   double spacing = 0;               ///< m, the characteristic length of a particle
-  double loosest = 0;               ///< kg/m3, below it a particle that bears nothing is strained no further apart
+  double loosest = 0; ///< kg/m3, below it a particle that bears nothing is strained no further apart
   std::vector<VumatBlock> full, tail;
   double tolerance = 0;         ///< relative change of stress up to which a wave speed is kept; 0: none is
   std::vector<int> due;         ///< particles whose wave speed is asked for in this step
