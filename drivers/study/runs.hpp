@@ -22,7 +22,8 @@ struct StudyRun {
 };
 
 /// Runs those that have no complete result of exactly this scene, as many at a time as `parallel` and the memory
-/// allow, and warns of results of another build, unless they are to be run again; interrupted ones go on from their checkpoints. Leaves beside each result the processor's seconds
+/// allow, and warns of results of another build, unless they are to be run again; interrupted ones go on from their
+/// checkpoints. Leaves beside each result the processor's seconds
 /// (`cpu_seconds`), but not of a run that was interrupted. Throws std::runtime_error naming the runs that failed and
 /// their logs, after all others have ended.
 void run_missing(std::vector<StudyRun> runs, const StudyOptions& options);
