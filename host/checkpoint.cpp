@@ -164,8 +164,8 @@ void check_lengths(const std::filesystem::path& path, Simulation<Geometry>& s, s
   s.particles.each_persistent([&](const Array& a) { fits = fits && a.size() == padded; });
   const bool listed = s.rebuilds > 0;
   const std::size_t clusters = listed ? std::size_t(s.particles.clusters()) : 0;
-  fits = fits && s.lists.interior.size() == clusters && s.lists.total.size() == clusters &&
-         s.lists.entries.size() >= clusters * std::size_t(s.lists.capacity);
+  fits = fits && s.outer_lists.interior.size() == clusters && s.outer_lists.total.size() == clusters &&
+         s.outer_lists.entries.size() >= clusters * std::size_t(s.outer_lists.capacity);
   if (!fits) refuse(path, "its particles are not those of the scene");
 }
 
@@ -222,6 +222,7 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation<Geomet
     return read_progress(file.openGroup("run"));
   });
   check_lengths(path, s, padded);
+  s.moved_when_pruned = -1;
   if (s.rebuilds > 0) {
     s.records.motion.resize(padded + s.images.list.size());
     s.records.stress.resize(padded + s.images.list.size());

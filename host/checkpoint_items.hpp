@@ -42,10 +42,10 @@ template <class Geometry, class F> void each_stored_item(Simulation<Geometry>& s
   item("moved", s.moved);
 
   item("listed_time", s.listed_time);
-  item("list_capacity", s.lists.capacity);
-  item("list_entries", s.lists.entries);
-  item("list_interior", s.lists.interior);
-  item("list_total", s.lists.total);
+  item("list_capacity", s.outer_lists.capacity);
+  item("list_entries", s.outer_lists.entries);
+  item("list_interior", s.outer_lists.interior);
+  item("list_total", s.outer_lists.total);
   item("image_first", s.images.first);
   item("image_first_wall", s.images.first_wall);
   static_assert(sizeof(Image) == 2 * sizeof(int), "images are stored as pairs of numbers");

@@ -16,23 +16,33 @@ namespace host {
 template <int D, class Real> struct GradientSums {
   Real moment[D * (D + 1) / 2]{};
   Real gradient[D * D]{};
+
+  void scale(double factor) {
+    for (Real& m : moment) m *= factor;
+    for (Real& g : gradient) g *= factor;
+  }
 };
 
-/// Additions and multiplications of one call of `add_neighbour`; square root and division count as one.
-template <int D> constexpr double gradient_flops = 3 * D + 9 + D + D*(1 + 2 * D) + D*(D + 1);
+/// Additions and multiplications of one neighbour; square root and division count as one.
+template <int D> constexpr double gradient_flops = 6 * D + 6 + 2 * D* D + D*(D + 1);
 
-/// Adds the neighbour `j` seen from `position`, `velocity`.
+/// V_j W'(r)/r over the kernel's scale, of the neighbour `j` seen from `position`.
 template <int D, class Real>
-inline void add_neighbour(const Kernel<D>& kernel, const Real (&position)[D], const Real (&velocity)[D],
+inline Real pair_weight(const Kernel<D>& kernel, const Real (&position)[D], const MotionRecord<D>& j) {
+  Real square{};
+  for (int a = 0; a < D; ++a) square += (position[a] - j.position[a]) * (position[a] - j.position[a]);
+  return doubled(kernel.pair_shape(square)) * j.volume;
+}
+
+/// Adds the neighbour `j` of weight `w` seen from `position`, `velocity`.
+template <int D, class Real>
+inline void add_neighbour(const Real& w, const Real (&position)[D], const Real (&velocity)[D],
                           const MotionRecord<D>& j, GradientSums<D, Real>& sums) {
-  Real x[D], r2{};
-  for (int a = 0; a < D; ++a) {
-    x[a] = position[a] - j.position[a];
-    r2 += x[a] * x[a];
+  Real x[D], slope[D]; // V_j dW/dx_b
+  for (int b = 0; b < D; ++b) {
+    x[b] = position[b] - j.position[b];
+    slope[b] = w * x[b];
   }
-  const Real w = kernel.gradient_factor(square_root(r2)) * j.volume;
-  Real slope[D]; // V_j dW/dx_b
-  for (int b = 0; b < D; ++b) slope[b] = w * x[b];
   for (int a = 0, m = 0; a < D; ++a) {
     const Real dv = j.velocity[a] - velocity[a];
     for (int b = 0; b < D; ++b) sums.gradient[a * D + b] += dv * slope[b];
@@ -118,8 +128,14 @@ inline void find_gradient(const Particles<Geometry>& p, const Kernel<D>& kernel,
   }
   GradientSums<D, Lane> sums;
   const int* neighbour = lists.begin(c);
-  for (int k = 0; k < lists.total[c]; ++k)
-    add_neighbour(kernel, position, velocity, records.motion[neighbour[k]], sums);
+  constexpr int ahead = 8; // their latencies overlap
+  Lane w[ahead];
+  for (int k = 0; k < lists.total[c]; k += ahead, neighbour += ahead) {
+    const int n = std::min(ahead, lists.total[c] - k);
+    for (int l = 0; l < n; ++l) w[l] = pair_weight(kernel, position, records.motion[neighbour[l]]);
+    for (int l = 0; l < n; ++l) add_neighbour(w[l], position, velocity, records.motion[neighbour[l]], sums);
+  }
+  sums.scale(kernel.pair_scale());
   Lane inverse[D * D];
   invert_moment(sums.moment, inverse);
   for (int a = 0; a < D; ++a)

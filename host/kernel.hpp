@@ -25,10 +25,23 @@ template <int Dimension> struct Kernel {
 
   /// W'(r)/r, so that the gradient of W at i is this times (x_i - x_j).
   template <class Real> Real gradient_factor(const Real& r) const {
-    const Real q = r * half_inverse_h, o = larger(1.0 - q, Real{});
-    const Real o3 = o * o * o;
+    const Real q = r * half_inverse_h, o = larger(1.0 - q, Real{}), o3 = o * o * o;
     if (kind == KernelKind::wendland_c2) return slope * o3;
     return slope * (o3 * (o * o)) * (1.0 + 5.0 * q);
+  }
+
+  /// W'(r)/r over `pair_scale`, from the square of r, in single precision: half the work. It is alike from both sides of a pair, and
+  /// the velocity gradient, corrected by the same weights, is exact as before.
+  template <class Real> Single<Real> pair_shape(const Real& square) const {
+    const Single<Real> reach = Single<Real>{} + float(support),
+                       r = smaller(square_root(single(square)), reach);
+    const Single<Real> d = reach - r, d2 = d * d;
+    if (kind == KernelKind::wendland_c2) return d2 * d;
+    return d2 * d2 * d * (1 + float(5 * half_inverse_h) * r);
+  }
+  double pair_scale() const {
+    const double power = half_inverse_h * half_inverse_h * half_inverse_h;
+    return slope * (kind == KernelKind::wendland_c2 ? power : power * half_inverse_h * half_inverse_h);
   }
 
   template <class Real> Real value(const Real& r) const {

@@ -4,6 +4,9 @@
 #pragma once
 #include <cmath>
 #include <cstring>
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 
 namespace host {
 
@@ -24,6 +27,7 @@ inline void store(double* to, const Lane& a) {
 
 /// Stores the first `count`.
 inline void store(double* to, const Lane& a, int count) {
+  if (count == lanes) return store(to, a);
   std::memcpy(to, &a, count * sizeof(double));
 }
 
@@ -50,6 +54,49 @@ inline double smaller(double a, double b) {
   return a < b ? a : b;
 }
 
+/// Eight of single precision, half a register, for sums that need not be exact.
+typedef float SingleLane __attribute__((vector_size(lanes * sizeof(float))));
+
+inline SingleLane single(const Lane& a) {
+  return __builtin_convertvector(a, SingleLane);
+}
+inline float single(double a) {
+  return float(a);
+}
+inline Lane doubled(const SingleLane& a) {
+  Lane r; // as a loop, for which compilers use one instruction
+  for (int l = 0; l < lanes; ++l) r[l] = a[l];
+  return r;
+}
+inline double doubled(float a) {
+  return a;
+}
+
+inline SingleLane square_root(const SingleLane& a) {
+  SingleLane r;
+  for (int l = 0; l < lanes; ++l) r[l] = std::sqrt(a[l]);
+  return r;
+}
+inline float square_root(float a) {
+  return std::sqrt(a);
+}
+
+/// SingleLane for Lane, float for double.
+template <class Real> using Single = decltype(single(Real{}));
+
+inline SingleLane larger(const SingleLane& a, const SingleLane& b) {
+  return a > b ? a : b;
+}
+inline float larger(float a, float b) {
+  return a > b ? a : b;
+}
+inline SingleLane smaller(const SingleLane& a, const SingleLane& b) {
+  return a < b ? a : b;
+}
+inline float smaller(float a, float b) {
+  return a < b ? a : b;
+}
+
 inline double sum(const Lane& a) {
   return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
 }
@@ -67,8 +114,22 @@ inline double largest(double a) {
   return a;
 }
 
+/// True if any of the eight is at most `limit`.
+inline bool any_within(const Lane& a, double limit) {
+#ifdef __AVX512F__ // GCC 12 goes by way of memory
+  return _mm512_cmp_pd_mask(__m512d(a), _mm512_set1_pd(limit), _CMP_LE_OQ) != 0;
+#else
+  bool within = false;
+  for (int l = 0; l < lanes; ++l) within |= a[l] <= limit;
+  return within;
+#endif
+}
+
 /// True if a comparison holds for any of the eight.
 inline bool any(const decltype(Lane{} < Lane{}) & mask) {
+#ifdef __AVX512F__
+  return _mm512_test_epi64_mask(__m512i(mask), __m512i(mask)) != 0;
+#endif
   auto joined = mask[0];
   for (int l = 1; l < lanes; ++l) joined |= mask[l];
   return joined != 0;

@@ -19,6 +19,7 @@ PairSide<Geometry, Lane> gather_cluster(const Records<Geometry>& records, int fi
       side.velocity[a][l] = m.velocity[a];
     }
     side.weight[l] = Geometry::weight(m.position[0]);
+    side.radius[l] = float(m.position[0]);
     side.density[l] = r.density;
     side.damping_speed[l] = r.damping_speed;
     for (int c = 0; c < D * (D + 1) / 2; ++c) side.strain_rate[c][l] = r.strain_rate[c];
@@ -37,21 +38,20 @@ void stress_force(const Lane (&stress)[S], const Lane& inverse_weight, const Pai
   }
 }
 
-/// Adds `count` neighbours. Roots and quotients of some are found before they are used: they take long, but many of
-/// them pass at a time.
+/// Adds `count` neighbours.
 template <bool diffuses, class Geometry, int D>
 void add_pairs(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i, const Records<Geometry>& records,
                const int* neighbour, int count, PairSums<Geometry, Lane>& sums) {
-  constexpr int ahead = 16;
-  Reach<Lane> reach[ahead];
-  for (int first = 0; first < count; first += ahead) {
+  constexpr int ahead = 8;
+  PairFactors<Lane> factors[ahead];
+  for (int first = 0; first < count; first += ahead, neighbour += ahead) {
     const int n = std::min(ahead, count - first);
-    for (int k = 0; k < n; ++k) reach[k] = reach_of(kernel, i, records.motion[neighbour[first + k]]);
-    for (int k = 0; k < n; ++k) {
-      const int j = neighbour[first + k];
-      add_pair<diffuses>(reach[k], i, records.motion[j], records.stress[j], sums);
-    }
+    for (int k = 0; k < n; ++k)
+      factors[k] = pair_factors(kernel, i, records.motion[neighbour[k]], records.stress[neighbour[k]]);
+    for (int k = 0; k < n; ++k)
+      add_pair<diffuses>(factors[k], i, records.motion[neighbour[k]], records.stress[neighbour[k]], sums);
   }
+  sums.scale(kernel.pair_scale());
 }
 
 } // namespace
@@ -75,7 +75,7 @@ ClusterForces<Geometry> forces_on(const Particles<Geometry>& p, const Kernel<Geo
   stress_force(stress, inverse_weight, wall, by_walls);
   if constexpr (Geometry::hoop) by_stress[0] -= stress[2] * inverse_weight;
   Lane damping = (0.25 * kernel.h) * inverse_density;
-  if constexpr (Geometry::hoop) damping *= inverse_weight;
+  if constexpr (Geometry::hoop) damping *= 0.5 * inverse_weight;
   ClusterForces<Geometry> forces;
   for (int a = 0; a < D; ++a) {
     forces.stress[a] = by_stress[a] * inverse_density;

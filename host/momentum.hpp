@@ -25,7 +25,8 @@ namespace host {
 /// A particle (or eight) as the pair function sees it.
 template <class Geometry, class Real> struct PairSide {
   static constexpr int D = Geometry::dimension;
-  Real position[D], velocity[D], weight, density, damping_speed, strain_rate[D * (D + 1) / 2];
+  Real position[D], velocity[D], weight;
+  Single<Real> density, damping_speed, strain_rate[D * (D + 1) / 2], radius;
 };
 
 /// Sums over the neighbours of a particle (or of eight), with g = V_j grad W_ij = w x.
@@ -36,11 +37,18 @@ template <class Geometry, class Real> struct PairSums {
   Real stress_force[D]{}; ///< w_j sigma_j g
   Real stress[S]{};       ///< sigma_j w
   Real viscous[D]{};
+
+  void scale(double factor) {
+    weight *= factor;
+    for (auto* group : {slope, stress_force, viscous})
+      for (int a = 0; a < D; ++a) group[a] *= factor;
+    for (Real& s : stress) s *= factor;
+  }
 };
 
 /// Additions and multiplications of one pair; square root and division count as one.
 template <class Geometry>
-constexpr double pair_flops = Geometry::dimension == 3 ? 101 : (Geometry::hoop ? 65 : 61);
+constexpr double pair_flops = Geometry::dimension == 3 ? 106 : (Geometry::hoop ? 73 : 69);
 
 /// Axes of component c of the strain rate.
 template <int D> constexpr int first_axis(int c) {
@@ -50,50 +58,65 @@ template <int D> constexpr int second_axis(int c) {
   return c < D ? c : (c - D + 1) % D;
 }
 
-/// What is slow to come by of a pair, and of nothing but its distance: W'(r)/r and 1/(r2 + 0.01 h2).
-template <class Real> struct Reach { Real slope, inverse; };
+/// 4/h times the artificial pressure of a pair (in axisymmetry 8/h times that times the mean radius): `x` apart, with
+/// `whole` = (v_i - v_j) . x and `square` = r2 + 0.01 h2. The part of `whole` that the mean velocity gradient does not
+/// explain counts where it is of the same sign as the whole and not larger, so that the viscosity always dissipates.
+/// In single precision, alike from both sides, so that what one particle gets the other loses.
 template <class Geometry, class Real, int D>
-inline Reach<Real> reach_of(const Kernel<D>& kernel, const PairSide<Geometry, Real>& i,
-                            const MotionRecord<D>& m) {
-  Real r2{};
-  for (int a = 0; a < D; ++a) {
-    const Real x = i.position[a] - m.position[a];
-    r2 += x * x;
-  }
-  return {kernel.gradient_factor(square_root(r2)), 1.0 / (r2 + 0.01 * kernel.h * kernel.h)};
+inline Single<Real> viscous_pressure(const PairSide<Geometry, Real>& i, const MotionRecord<D>& m,
+                                     const StressRecord<Geometry>& j, const Single<Real> (&x)[D],
+                                     const Single<Real>& whole, const Single<Real>& square) {
+  using Number = Single<Real>;
+  const Number zero = i.density - i.density; // against a constant, GCC 12 makes two instructions of `larger`
+  Number twice_linear{};
+  for (int c = 0; c < D * (D + 1) / 2; ++c)
+    twice_linear += (i.strain_rate[c] + j.strain_rate[c]) * (x[first_axis<D>(c)] * x[second_axis<D>(c)]);
+  const Number approach =
+      smaller(larger(whole - 0.5f * twice_linear, smaller(whole, zero)), larger(whole, zero));
+  Number mean = (i.damping_speed + j.damping_speed) * (i.density + j.density);
+  if constexpr (Geometry::hoop) mean *= i.radius + std::abs(float(m.position[0]));
+  return mean * approach / square;
 }
 
-/// Adds the neighbour `j` with motion `m`; `diffuses` is false for images behind walls. The part of v_ij . x_ij that the
-/// mean velocity gradient does not explain counts where it is of the same sign as the whole and not larger, so that
-/// the viscosity always dissipates.
-template <bool diffuses, class Geometry, class Real, int D>
-inline void add_pair(const Reach<Real>& reach, const PairSide<Geometry, Real>& i, const MotionRecord<D>& m,
-                     const StressRecord<Geometry>& j, PairSums<Geometry, Real>& sums) {
-  constexpr int rates = D * (D + 1) / 2;
-  Real x[D], g[D], product[rates];
-  for (int a = 0; a < D; ++a) x[a] = i.position[a] - m.position[a];
-  for (int c = 0; c < rates; ++c) product[c] = x[first_axis<D>(c)] * x[second_axis<D>(c)];
-  const Real w = reach.slope * m.volume;
+/// What is slow to come by of a pair: found for some pairs before it is used, so that latencies overlap.
+template <class Real> struct PairFactors {
+  Real weight;   ///< V_j W'(r)/r over the kernel's scale
+  Real pressure; ///< of the viscosity, as above
+};
+template <class Geometry, class Real, int D>
+inline PairFactors<Real> pair_factors(const Kernel<D>& kernel, const PairSide<Geometry, Real>& i,
+                                      const MotionRecord<D>& m, const StressRecord<Geometry>& j) {
+  Real square{}, whole{};
+  Single<Real> single_x[D];
   for (int a = 0; a < D; ++a) {
-    g[a] = w * x[a];
+    const Real x = i.position[a] - m.position[a];
+    square += x * x;
+    whole += (i.velocity[a] - m.velocity[a]) * x;
+    single_x[a] = single(x);
+  }
+  const auto pressure =
+      viscous_pressure(i, m, j, single_x, single(whole), single(square + 0.01 * kernel.h * kernel.h));
+  return {doubled(kernel.pair_shape(square)) * m.volume, doubled(pressure)};
+}
+
+/// Adds the neighbour `j` with motion `m`; `diffuses` is false for images behind walls.
+template <bool diffuses, class Geometry, class Real, int D>
+inline void add_pair(const PairFactors<Real>& factors, const PairSide<Geometry, Real>& i,
+                     const MotionRecord<D>& m, const StressRecord<Geometry>& j,
+                     PairSums<Geometry, Real>& sums) {
+  Real g[D], weighted[D];
+  for (int a = 0; a < D; ++a) {
+    g[a] = factors.weight * (i.position[a] - m.position[a]);
+    weighted[a] = Geometry::hoop ? g[a] * m.position[0] : g[a];
     sums.slope[a] += g[a];
+    sums.viscous[a] += factors.pressure * g[a];
   }
-  const double weight = Geometry::weight(m.position[0]);
   for (int a = 0; a < D; ++a)
-    for (int b = 0; b < D; ++b) sums.stress_force[a] += (weight * j.stress[component<D>(a, b)]) * g[b];
+    for (int b = 0; b < D; ++b) sums.stress_force[a] += j.stress[component<D>(a, b)] * weighted[b];
   if constexpr (diffuses) {
-    sums.weight += w;
-    for (int s = 0; s < Geometry::stress_components; ++s) sums.stress[s] += w * j.stress[s];
+    sums.weight += factors.weight;
+    for (int s = 0; s < Geometry::stress_components; ++s) sums.stress[s] += factors.weight * j.stress[s];
   }
-  Real whole{}, twice_linear{};
-  for (int a = 0; a < D; ++a) whole += (i.velocity[a] - m.velocity[a]) * x[a];
-  for (int c = 0; c < rates; ++c) twice_linear += (i.strain_rate[c] + double(j.strain_rate[c])) * product[c];
-  const Real approach =
-      smaller(larger(whole - 0.5 * twice_linear, smaller(whole, Real{})), larger(whole, Real{}));
-  Real mean = (i.damping_speed + double(j.damping_speed)) * (i.density + double(j.density));
-  if constexpr (Geometry::hoop) mean *= 0.5 * (i.weight + std::abs(weight));
-  const Real pressure = mean * approach * reach.inverse;
-  for (int a = 0; a < D; ++a) sums.viscous[a] += pressure * g[a];
 }
 
 /// What acts on the particles of one cluster: accelerations, m/s2, and the rate of stress diffusion, Pa/s.

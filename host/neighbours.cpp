@@ -156,6 +156,13 @@ template <class Geometry> void sort_particles(Particles<Geometry>& p, double cel
   p.each_persistent(permute);
 }
 
+/// Of the eight particles of a cluster from one record, m2.
+template <std::size_t D> static Lane distance_square(const std::array<Lane, D>& x, const double (&y)[D]) {
+  Lane square{};
+  for (std::size_t a = 0; a < D; ++a) square += (x[a] - y[a]) * (x[a] - y[a]);
+  return square;
+}
+
 template <class Geometry>
 void find_neighbours(const Particles<Geometry>& p, const Images& images, const Records<Geometry>& records,
                      double reach, NeighbourLists& lists) {
@@ -163,7 +170,7 @@ void find_neighbours(const Particles<Geometry>& p, const Images& images, const R
   const auto grid = sort_into_cells(p, images, records, reach);
   lists.interior.resize(p.clusters());
   lists.total.resize(p.clusters());
-  for (bool fits = false; !fits; lists.capacity *= fits ? 1 : 2) {
+  for (bool fits = false; !fits;) {
     lists.entries.resize(std::size_t(p.clusters()) * lists.capacity);
     int longest = 0;
 #pragma omp parallel for schedule(static) reduction(max : longest)
@@ -187,22 +194,41 @@ void find_neighbours(const Particles<Geometry>& p, const Images& images, const R
             for (int k = grid.start[grid.index(cell)]; k < grid.start[grid.index(cell) + 1]; ++k) {
               const int j = grid.sorted[k];
               if ((j >= images.first_wall) != wall) continue;
-              Lane r2{};
-              for (int a = 0; a < D; ++a) {
-                const Lane dx = x[a] - records.motion[j].position[a];
-                r2 += dx * dx;
-              }
-              double nearest = r2[0];
-              for (int l = 1; l < lanes; ++l) nearest = std::min(nearest, r2[l]);
-              if (nearest > reach * reach) continue;
               if (n < lists.capacity) out[n] = j;
-              ++n;
+              n += any_within(distance_square(x, records.motion[j].position), reach * reach);
             }
         (wall ? lists.total : lists.interior)[c] = n;
         longest = std::max(longest, n);
       }
     }
     fits = longest <= lists.capacity;
+    if (!fits) lists.capacity = longest + longest / 16;
+  }
+}
+
+template <class Geometry>
+void prune(const Particles<Geometry>& p, const Records<Geometry>& records, double reach,
+           const NeighbourLists& outer, NeighbourLists& lists) {
+  constexpr int D = Geometry::dimension;
+  lists.capacity = outer.capacity;
+  lists.entries.resize(outer.entries.size());
+  lists.interior.resize(p.clusters());
+  lists.total.resize(p.clusters());
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < p.clusters(); ++c) {
+    std::array<Lane, D> x;
+    for (int a = 0; a < D; ++a) x[a] = load(&p.position[a][c * lanes]);
+    const int *next = outer.begin(c), *middle = next + outer.interior[c], *end = next + outer.total[c];
+    int *const begin = lists.entries.data() + std::size_t(c) * lists.capacity, *out = begin;
+    const auto keep_until = [&](const int* stop) {
+      for (; next < stop; ++next) {
+        *out = *next;
+        out += any_within(distance_square(x, records.motion[*next].position), reach * reach);
+      }
+      return int(out - begin);
+    };
+    lists.interior[c] = keep_until(middle);
+    lists.total[c] = keep_until(end);
   }
 }
 
@@ -215,5 +241,11 @@ template void find_neighbours(const Particles<Axisymmetric>&, const Images&, con
                               double, NeighbourLists&);
 template void find_neighbours(const Particles<ThreeDimensional>&, const Images&,
                               const Records<ThreeDimensional>&, double, NeighbourLists&);
+template void prune(const Particles<PlaneStrain>&, const Records<PlaneStrain>&, double, const NeighbourLists&,
+                    NeighbourLists&);
+template void prune(const Particles<Axisymmetric>&, const Records<Axisymmetric>&, double,
+                    const NeighbourLists&, NeighbourLists&);
+template void prune(const Particles<ThreeDimensional>&, const Records<ThreeDimensional>&, double,
+                    const NeighbourLists&, NeighbourLists&);
 
 } // namespace host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles sorted in space and one neighbour list for each cluster of eight. Lists reach beyond the
-// support by a skin and hold until a particle has moved half of it.
+// Particles sorted in space and one neighbour list for each cluster of eight. Lists reach beyond the support by a skin
+// and hold until a particle has moved half of it: outer lists with a wide skin, which take long to find, and what
+// pair loops read, pruned from them every few steps to a narrow one.
 #pragma once
 #include "host/mirrors.hpp"
 
@@ -23,5 +24,11 @@ template <class Geometry> void sort_particles(Particles<Geometry>& particles, do
 template <class Geometry>
 void find_neighbours(const Particles<Geometry>& particles, const Images& images,
                      const Records<Geometry>& records, double reach, NeighbourLists& lists);
+
+/// Keeps of `outer`, in its order, what is within `reach` of one of the particles now. What is left out adds exactly nothing to
+/// the sums of pairs as long as it stays beyond the support, so that results do not depend on when this is done.
+template <class Geometry>
+void prune(const Particles<Geometry>& particles, const Records<Geometry>& records, double reach,
+           const NeighbourLists& outer, NeighbourLists& lists);
 
 } // namespace host

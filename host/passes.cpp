@@ -21,20 +21,20 @@ void find_gradients(const Particles<Geometry>& p, const Kernel<Geometry::dimensi
   }
 }
 
-/// Largest component of the gradients, 1/s.
+/// Largest component of the gradients, 1/s; what is no number is left out.
 template <class Geometry>
 double show_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, int count,
                   const Numerics& numerics, double h, Records<Geometry>& records) {
-  std::array<double, Geometry::dimension * Geometry::dimension> slope;
-  double steepest = 0;
-  for (int k = 0; k < count; ++k) {
+  ClusterGradient<Geometry> slope;
+  Lane steepest{};
+  for (int k = 0; k < count; k += lanes) {
     for (std::size_t e = 0; e < slope.size(); ++e) {
-      slope[e] = gradient.component[e][k];
-      steepest = std::max(steepest, std::abs(slope[e]));
+      slope[e] = load(&gradient.component[e][k]);
+      steepest = larger(larger(slope[e], -slope[e]), steepest);
     }
-    show_stress_of(p, first + k, slope, numerics, h, records);
+    show_stress_of(p, first + k, std::min(lanes, count - k), slope, numerics, h, records);
   }
-  return steepest;
+  return largest(steepest);
 }
 
 } // namespace

@@ -29,24 +29,35 @@ template <class Geometry> double list_reach(const Simulation<Geometry>& s) {
   return s.kernel.support + s.scene.numerics.skin * s.scene.spacing;
 }
 
-/// How far a wall of the list has moved since lists were made, m: its images move by twice as much.
-template <class Geometry> double wall_travel(const Simulation<Geometry>& s) {
+/// How far a wall of the list has moved since a time, m: its images move by twice as much.
+template <class Geometry> double wall_travel(const Simulation<Geometry>& s, double since) {
   double furthest = 0;
   for (const Wall& wall : s.scene.walls) {
-    const auto now = wall.motion.displacement(s.time), listed = wall.motion.displacement(s.listed_time);
-    furthest = std::max(furthest, std::hypot(now[0] - listed[0], now[1] - listed[1], now[2] - listed[2]));
+    const auto now = wall.motion.displacement(s.time), then = wall.motion.displacement(since);
+    furthest = std::max(furthest, std::hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]));
   }
   return furthest;
+}
+
+/// The skin of pruned lists, of the one of the outer lists.
+constexpr double narrow = 0.1;
+
+template <class Geometry> void prune_lists(Simulation<Geometry>& s) {
+  const double reach = s.kernel.support + narrow * s.scene.numerics.skin * s.scene.spacing;
+  prune(s.particles, s.records, reach, s.outer_lists, s.lists);
+  s.moved_when_pruned = s.moved;
+  s.pruned_time = s.time;
+  ++s.prunings;
 }
 
 template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
   move_gate(s.mirrors, s.scene, s.time);
   if (!s.surfaces.empty()) find_surfaces(s.walls, s.scene.geometry, s.time, s.dt_before, s.surfaces);
   const double half_skin = 0.5 * s.scene.numerics.skin * s.scene.spacing;
-  if (s.rebuilds == 0 || s.moved + wall_travel(s) > half_skin)
-    update_lists(s);
-  else
-    show_all_motion(s);
+  if (s.rebuilds == 0 || s.moved + wall_travel(s, s.listed_time) > half_skin) return update_lists(s);
+  show_all_motion(s);
+  const double since = s.moved - s.moved_when_pruned + wall_travel(s, s.pruned_time);
+  if (s.moved_when_pruned < 0 || since > narrow * half_skin) prune_lists(s);
 }
 
 /// Flow speed of the particles of cluster c, m/s.
@@ -146,8 +157,7 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   // An increment without strain, so that the material's own initial state is there from the start.
   constexpr double instant = 1e-12; // s
   update_stress(s.particles, scene.material, {instant, instant, instant}, s.blocks);
-  if (s.surfaces.empty())
-    s.particles.each_of_stages([](Array& a) { Array().swap(a); }); // a step needs none but among walls
+  s.particles.each_of_stages([](Array& a) { Array().swap(a); }); // a step needs none
   s.initial_potential_energy = potential_energy(s.particles, scene.gravity);
   return s;
 }
@@ -161,10 +171,11 @@ template <class Geometry> void update_lists(Simulation<Geometry>& s) {
   make_room(s.records.motion, size);
   make_room(s.records.stress, size);
   show_all_motion(s);
-  find_neighbours(s.particles, s.images, s.records, list_reach(s), s.lists);
+  find_neighbours(s.particles, s.images, s.records, list_reach(s), s.outer_lists);
   s.moved = 0;
   s.listed_time = s.time;
   ++s.rebuilds;
+  prune_lists(s);
 }
 
 template <class Geometry> Memory memory_of(const Simulation<Geometry>& s) {
@@ -176,7 +187,8 @@ template <class Geometry> Memory memory_of(const Simulation<Geometry>& s) {
   count(s.particles.diffusivity);
   memory.data += bytes(s.particles.id) + bytes(s.records.motion) + bytes(s.records.stress) +
                  bytes(s.images.list) + bytes(s.blocks.due) + bytes(s.motions);
-  memory.lists = bytes(s.lists.entries) + bytes(s.lists.interior) + bytes(s.lists.total);
+  for (const NeighbourLists* lists : {&s.outer_lists, &s.lists})
+    memory.lists += bytes(lists->entries) + bytes(lists->interior) + bytes(lists->total);
   return memory;
 }
 

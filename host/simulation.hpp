@@ -22,10 +22,16 @@ template <class Geometry> struct Simulation {
 
   // Valid until particles have moved half the skin.
   Images images{};
-  NeighbourLists lists{};
+  NeighbourLists outer_lists{};
   Records<Geometry> records{};
   double moved = 0;       ///< m, bound of what any particle has moved since
   double listed_time = 0; ///< s, when they were made
+
+  // Valid until particles have moved half the narrow skin.
+  NeighbourLists lists{};
+  double moved_when_pruned = -1; ///< m, `moved` then; below 0: not pruned yet
+  double pruned_time = 0;        ///< s
+  long prunings = 0;             ///< since the start or the resumption
 
   double time = 0;                            ///< s
   double dt = 0, dt_before = 0, first_dt = 0; ///< s: this step, the last, the first

@@ -37,6 +37,7 @@ template <class Geometry>
 void strain_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, double dt,
                   const StressBlocks& blocks, bool turning, VumatBlock& b) {
   constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+  constexpr int directions = Geometry::hoop ? 3 : D; // that strain
   for (int k = 0; k < b.points; k += lanes) {
     const int i = first + k, used = std::min(lanes, b.points - k);
     std::array<Lane, D * D> slope;
@@ -53,8 +54,8 @@ void strain_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradien
                             : Lane{};
     volumetric -= spread;
     for (int c = 0; c < S; ++c) {
-      store(&b.strain_increment[c * b.points + k], c < 3 ? step.strain[c] - spread / 3 : step.strain[c],
-            used);
+      store(&b.strain_increment[c * b.points + k],
+            c < directions ? step.strain[c] - spread / directions : step.strain[c], used);
       store(&b.stress_old[c * b.points + k], stress[c], used);
     }
     store(&b.density[k], density * (1 - 0.25 * volumetric) / (1 + 0.25 * volumetric), used); // mid-increment
@@ -111,42 +112,39 @@ void update_stress(Particles<Geometry>& p, const Material& material, const Incre
 
 /// Diffusivity of stress, m2/s: delta h2 |grad v|, so that noise is smoothed as it arises, by strain, and a
 /// deposit at rest keeps its stress; at most 0.1 h c, where it would limit the step.
-static double stress_diffusivity(double delta, double h, double wave_speed, double gradient_norm) {
-  return std::min(delta * h * h * gradient_norm, 0.1 * h * wave_speed);
-}
-
-double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm) {
-  return std::min(0.5 * wave_speed,
-                  numerics.viscosity * wave_speed + numerics.flow_viscosity * h * gradient_norm);
+static Lane stress_diffusivity(double delta, double h, const Lane& wave_speed, const Lane& gradient_norm) {
+  return smaller(delta * h * h * gradient_norm, 0.1 * h * wave_speed);
 }
 
 template <class Geometry>
-void show_stress_of(Particles<Geometry>& p, int i,
-                    const std::array<double, Geometry::dimension * Geometry::dimension>& gradient,
+void show_stress_of(Particles<Geometry>& p, int first, int used, const ClusterGradient<Geometry>& gradient,
                     const Numerics& numerics, double h, Records<Geometry>& records) {
-  constexpr int D = Geometry::dimension;
-  auto& record = records.stress[i];
-  double square = 0;
-  for (const double g : gradient) square += g * g;
-  const double norm = std::sqrt(square);
-  for (int c = 0; c < Geometry::stress_components; ++c) record.stress[c] = p.stress[c][i];
-  for (int c = 0; c < D * (D + 1) / 2; ++c) {
+  constexpr int D = Geometry::dimension, rates = D * (D + 1) / 2;
+  Lane square{}, rate[rates];
+  for (const Lane& g : gradient) square += g * g;
+  for (int c = 0; c < rates; ++c) {
     const int a = c < D ? c : (c - D) % D, b = c < D ? c : (c - D + 1) % D;
-    record.strain_rate[c] = float(a == b ? gradient[a * D + a] : gradient[a * D + b] + gradient[b * D + a]);
+    rate[c] = a == b ? gradient[a * D + a] : gradient[a * D + b] + gradient[b * D + a];
   }
-  record.density = float(p.density[i]);
-  record.damping_speed = float(damping_speed(numerics, h, p.wave_speed[i], norm));
-  p.diffusivity[i] = stress_diffusivity(numerics.stress_diffusion, h, p.wave_speed[i], norm);
+  const Lane norm = square_root(square), wave_speed = load(&p.wave_speed[first]);
+  const Lane damping = damping_speed(numerics, h, wave_speed, norm);
+  store(&p.diffusivity[first], stress_diffusivity(numerics.stress_diffusion, h, wave_speed, norm));
+  for (int l = 0; l < used; ++l) {
+    auto& record = records.stress[first + l];
+    for (int c = 0; c < Geometry::stress_components; ++c) record.stress[c] = p.stress[c][first + l];
+    for (int c = 0; c < rates; ++c) record.strain_rate[c] = float(rate[c][l]);
+    record.density = float(p.density[first + l]);
+    record.damping_speed = float(damping[l]);
+  }
 }
 
 template <class Geometry>
 void show_stress(Particles<Geometry>& p, const Scene& scene, double h, Records<Geometry>& records) {
-  constexpr int D = Geometry::dimension;
 #pragma omp parallel for schedule(static)
-  for (int i = 0; i < p.count; ++i) {
-    std::array<double, D * D> gradient;
-    for (int e = 0; e < D * D; ++e) gradient[e] = p.velocity_gradient[e][i];
-    show_stress_of(p, i, gradient, scene.numerics, h, records);
+  for (int first = 0; first < p.count; first += lanes) {
+    ClusterGradient<Geometry> gradient;
+    for (std::size_t e = 0; e < gradient.size(); ++e) gradient[e] = load(&p.velocity_gradient[e][first]);
+    show_stress_of(p, first, std::min(lanes, p.count - first), gradient, scene.numerics, h, records);
   }
 }
 
@@ -154,23 +152,23 @@ template StressBlocks make_stress_blocks(const Material&, const Particles<PlaneS
 template void advance_stress(Particles<PlaneStrain>&, const Material&, const Increment&, const StressBlocks&,
                              const BlockGradient<PlaneStrain>&, int, VumatBlock&, Failure&);
 template void update_stress(Particles<PlaneStrain>&, const Material&, const Increment&, StressBlocks&);
-template void show_stress_of(Particles<PlaneStrain>&, int, const std::array<double, 4>&, const Numerics&,
-                             double, Records<PlaneStrain>&);
+template void show_stress_of(Particles<PlaneStrain>&, int, int, const ClusterGradient<PlaneStrain>&,
+                             const Numerics&, double, Records<PlaneStrain>&);
 template void show_stress(Particles<PlaneStrain>&, const Scene&, double, Records<PlaneStrain>&);
 template StressBlocks make_stress_blocks(const Material&, const Particles<Axisymmetric>&, double);
 template void advance_stress(Particles<Axisymmetric>&, const Material&, const Increment&, const StressBlocks&,
                              const BlockGradient<Axisymmetric>&, int, VumatBlock&, Failure&);
 template void update_stress(Particles<Axisymmetric>&, const Material&, const Increment&, StressBlocks&);
-template void show_stress_of(Particles<Axisymmetric>&, int, const std::array<double, 4>&, const Numerics&,
-                             double, Records<Axisymmetric>&);
+template void show_stress_of(Particles<Axisymmetric>&, int, int, const ClusterGradient<Axisymmetric>&,
+                             const Numerics&, double, Records<Axisymmetric>&);
 template void show_stress(Particles<Axisymmetric>&, const Scene&, double, Records<Axisymmetric>&);
 template StressBlocks make_stress_blocks(const Material&, const Particles<ThreeDimensional>&, double);
 template void advance_stress(Particles<ThreeDimensional>&, const Material&, const Increment&,
                              const StressBlocks&, const BlockGradient<ThreeDimensional>&, int, VumatBlock&,
                              Failure&);
 template void update_stress(Particles<ThreeDimensional>&, const Material&, const Increment&, StressBlocks&);
-template void show_stress_of(Particles<ThreeDimensional>&, int, const std::array<double, 9>&, const Numerics&,
-                             double, Records<ThreeDimensional>&);
+template void show_stress_of(Particles<ThreeDimensional>&, int, int, const ClusterGradient<ThreeDimensional>&,
+                             const Numerics&, double, Records<ThreeDimensional>&);
 template void show_stress(Particles<ThreeDimensional>&, const Scene&, double, Records<ThreeDimensional>&);
 
 } // namespace host

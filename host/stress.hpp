@@ -59,13 +59,20 @@ void update_wave_speed(Particles<Geometry>& particles, const Material& material,
 /// Speed of the artificial viscosity, m/s: alpha c + beta h |grad v|, at most c / 2. The second term damps
 /// noise as it arises, by strain; the first, which alone acts in a deposit at rest, is small, for with it
 /// the zero-energy modes of the pair sums would hold slopes up that creep down later.
-double damping_speed(const Numerics& numerics, double h, double wave_speed, double gradient_norm);
+template <class Real>
+Real damping_speed(const Numerics& numerics, double h, const Real& wave_speed, const Real& gradient_norm) {
+  return smaller(0.5 * wave_speed,
+                 numerics.viscosity * wave_speed + numerics.flow_viscosity * h * gradient_norm);
+}
 
-/// Fills `records.stress` and the diffusivity of stress of particle i, whose velocity gradient is `gradient`.
+/// Velocity gradients of a cluster, 1/s.
+template <class Geometry> using ClusterGradient = std::array<Lane, Geometry::dimension * Geometry::dimension>;
+
+/// Fills `records.stress` and the diffusivity of stress of the `used` particles first, first + 1, ... of a cluster.
 template <class Geometry>
-void show_stress_of(Particles<Geometry>& particles, int i,
-                    const std::array<double, Geometry::dimension * Geometry::dimension>& gradient,
-                    const Numerics& numerics, double smoothing_length, Records<Geometry>& records);
+void show_stress_of(Particles<Geometry>& particles, int first, int used,
+                    const ClusterGradient<Geometry>& gradient, const Numerics& numerics,
+                    double smoothing_length, Records<Geometry>& records);
 
 /// The same for all particles (not of the images).
 template <class Geometry>

@@ -179,9 +179,11 @@ void touch_all(const WallsInStep<D>& walls, int planes, const Scene& scene, Trav
   }
 }
 
+/// Particle i, lane l of a cluster under the forces `by`.
 template <class Geometry, int D = Geometry::dimension>
-void move_one(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, double kick, ClusterMotion& motion,
-              std::span<WallLoad> loads, Pushes<D>& near) {
+void move_one(Simulation<Geometry>& s, int i, const ClusterForces<Geometry>& by, int l,
+              const WallsInStep<D>& walls, double kick, ClusterMotion& motion, std::span<WallLoad> loads,
+              Pushes<D>& near) {
   auto& p = s.particles;
   Work& work = motion.work;
   Traveller<D> t{p.mass[i], {}, {}, {}, {}, work, loads};
@@ -189,9 +191,9 @@ void move_one(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, doubl
   for (int a = 0; a < D; ++a) {
     t.from[a] = p.position[a][i];
     t.before[a] = p.velocity[a][i];
-    push[a] = kick * p.wall_acceleration[a][i];
-    t.v[a] = t.before[a] + kick * (p.stress_acceleration[a][i] + p.viscous_acceleration[a][i] +
-                                   p.wall_acceleration[a][i] - (a == D - 1 ? s.scene.gravity : 0));
+    push[a] = kick * by.wall[a][l];
+    t.v[a] = t.before[a] +
+             kick * (by.stress[a][l] + by.viscous[a][l] + by.wall[a][l] - (a == D - 1 ? s.scene.gravity : 0));
   }
   find_near(walls.now, t.from, s.kernel.support, near);
   if (near.surface.empty()) { // behind an edge; walls out of reach do not push
@@ -204,8 +206,8 @@ void move_one(Simulation<Geometry>& s, int i, const WallsInStep<D>& walls, doubl
   Point<D> impulse;
   for (int a = 0; a < D; ++a) {
     impulse[a] = t.mass * 0.5 * (t.before[a] + t.v[a]);
-    work.stress += impulse[a] * kick * p.stress_acceleration[a][i];
-    work.viscosity += impulse[a] * kick * p.viscous_acceleration[a][i];
+    work.stress += impulse[a] * kick * by.stress[a][l];
+    work.viscosity += impulse[a] * kick * by.viscous[a][l];
     work.wall += impulse[a] * push[a];
     work.friction += impulse[a] * friction[a];
     t.x[a] = t.from[a] + s.dt * t.v[a];
@@ -241,9 +243,9 @@ Point<D> share_out(const Point<D>& push, const std::vector<Point<D>>& normals, s
 template <class Geometry> ClusterMotion move_among_walls(Simulation<Geometry>& s) {
   constexpr int D = Geometry::dimension;
   // Sums by blocks of particles, then over the blocks in order: the same for any number of threads.
-  constexpr int block = 512;
+  constexpr int together = 64; // clusters
   auto& p = s.particles;
-  const int count = p.count, blocks = (count + block - 1) / block;
+  const int blocks = (p.clusters() + together - 1) / together;
   const std::size_t wall_count = s.loads.size();
   auto& room = s.wall_room;
   find_surfaces(s.walls, s.scene.geometry, s.time + s.dt, s.dt, room.ahead);
@@ -251,16 +253,19 @@ template <class Geometry> ClusterMotion move_among_walls(Simulation<Geometry>& s
   room.pushes.resize(std::size_t(omp_get_max_threads()));
   room.motion.assign(blocks, {});
   room.load.assign(blocks * wall_count, {});
-  update_acceleration(p, s.kernel, s.lists, s.records, s.scene);
 #pragma omp parallel
   {
     auto& near = room.pushes[omp_get_thread_num()];
 #pragma omp for schedule(static)
     for (int b = 0; b < blocks; ++b) {
       const auto loads = std::span(room.load).subspan(b * wall_count, wall_count);
-      for (int i = b * block; i < std::min((b + 1) * block, count); ++i) {
-        move_one(s, i, walls, 0.5 * (s.dt_before + s.dt), room.motion[b], loads, near);
-        for (std::size_t c = 0; c < p.stress.size(); ++c) p.stress[c][i] += s.dt * p.stress_diffusion[c][i];
+      for (int c = b * together; c < std::min((b + 1) * together, p.clusters()); ++c) {
+        const auto forces = forces_on(p, s.kernel, s.lists, s.records, s.scene, c);
+        const int first = c * lanes, used = std::min(lanes, p.count - first);
+        for (int l = 0; l < used; ++l)
+          move_one(s, first + l, forces, l, walls, 0.5 * (s.dt_before + s.dt), room.motion[b], loads, near);
+        for (std::size_t e = 0; e < p.stress.size(); ++e)
+          store(&p.stress[e][first], load(&p.stress[e][first]) + s.dt * forces.diffusion[e], used);
       }
     }
   }

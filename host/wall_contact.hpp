@@ -11,8 +11,7 @@ namespace host {
 template <int D>
 Point<D> share_out(const Point<D>& push, const std::vector<Point<D>>& normals, std::vector<double>& shares);
 
-/// As `move` of host/passes.hpp, with accelerations that are kept meanwhile; adds to the loads of the walls what they
-/// took up.
+/// As `move` of host/passes.hpp; adds to the loads of the walls what they took up.
 template <class Geometry> ClusterMotion move_among_walls(Simulation<Geometry>& simulation);
 
 } // namespace host

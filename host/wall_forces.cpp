@@ -14,6 +14,7 @@ template <class Geometry> PairSide<Geometry, double> side_of(const Records<Geome
   side.weight = Geometry::weight(motion.position[0]);
   side.density = stress.density;
   side.damping_speed = stress.damping_speed;
+  side.radius = float(motion.position[0]);
   std::ranges::copy(stress.strain_rate, side.strain_rate);
   return side;
 }
@@ -23,8 +24,10 @@ template <class Geometry, int D = Geometry::dimension>
 Point<D> acceleration(const Kernel<D>& kernel, const Records<Geometry>& records, int i, int j) {
   const auto side = side_of(records, i);
   PairSums<Geometry, double> sums;
-  add_pair<false>(reach_of(kernel, side, records.motion[j]), side, records.motion[j], records.stress[j],
+  const auto& motion = records.motion[j];
+  add_pair<false>(pair_factors(kernel, side, motion, records.stress[j]), side, motion, records.stress[j],
                   sums);
+  sums.scale(kernel.pair_scale());
   const double inverse_weight = Geometry::hoop ? 1 / side.weight : 1;
   Point<D> a{};
   for (int c = 0; c < D; ++c) {

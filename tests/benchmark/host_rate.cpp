@@ -159,10 +159,11 @@ template <class Geometry> void measure(Simulation<Geometry>& s, int repeats) {
   const auto peaks = tests::measured_peaks();
   fmt::print("peaks of a core, measured: {:.0f} GFlop/s, {:.0f} GB/s\n", 1e-9 * peaks.flops,
              1e-9 * peaks.bytes);
-  fmt::print("{} particles, {} images; {:.1f} neighbours within the support, {:.1f} computed, {} rebuilds in "
-             "{} steps\n{:<16}{:>12}{:>14}{:>10}{:>14}{:>10}\n",
-             count, s.images.list.size(), pairs.close, pairs.listed, s.rebuilds, s.steps, "part",
-             "ns/particle", "flop/particle", "% of peak", "byte/particle", "% of peak");
+  fmt::print(
+      "{} particles, {} images; {:.1f} neighbours within the support, {:.1f} computed, {} rebuilds and "
+      "{} prunings in {} steps\n{:<16}{:>12}{:>14}{:>10}{:>14}{:>10}\n",
+      count, s.images.list.size(), pairs.close, pairs.listed, s.rebuilds, s.prunings, s.steps, "part",
+      "ns/particle", "flop/particle", "% of peak", "byte/particle", "% of peak");
   const auto memory = memory_of(s);
   auto state = s;
   state.particles.each_of_stages([&](Array& a) { a.assign(state.particles.padded(), 0.0); });
@@ -177,7 +178,11 @@ template <class Geometry> void measure(Simulation<Geometry>& s, int repeats) {
   }
   const double rebuild =
       median_time<Geometry>(state, std::max(3, repeats / 4), [](auto& run) { update_lists(run); });
-  const double lists = rebuild / count * double(s.rebuilds) / double(s.steps);
+  const double pruning = median_time<Geometry>(state, repeats, [](auto& run) {
+    prune(run.particles, run.records, 1.01 * run.kernel.support, run.outer_lists, run.lists);
+  });
+  const double lists =
+      (rebuild * double(s.rebuilds) + pruning * double(s.prunings - s.rebuilds)) / (count * double(s.steps));
   fmt::print(
       "{:<16}{:>12.1f}\n{:<16}{:>12.1f}   {:.3g} particle-steps/s; wave speed and stress {:.0f} % of it\n",
       "lists", 1e9 * lists, "sum", 1e9 * (all + lists), 1 / (all + lists),

@@ -50,6 +50,22 @@ TEST_P(Kernels, SlopeIsThatOfItsValue) {
   EXPECT_DOUBLE_EQ(kernel.gradient_factor(0.0), kernel.slope);
 }
 
+TEST_P(Kernels, OfPairsIsTheSameInSinglePrecision) {
+  const Kernel<3> kernel(h, GetParam());
+  for (double r = 0; r < 2.5 * h; r += 0.01 * h) {
+    const double found = kernel.pair_scale() * kernel.pair_shape(r * r);
+    EXPECT_NEAR(found, kernel.gradient_factor(r), -6e-7 * kernel.slope) << r / h; // ten roundings
+    if (r > kernel.support * (1 + 1e-6)) {
+      EXPECT_EQ(found, 0) << r / h;
+    }
+  }
+  Lane square;
+  for (int l = 0; l < lanes; ++l) square[l] = 0.09 * l * l * h * h;
+  const auto shapes = kernel.pair_shape(square);
+  for (int l = 0; l < lanes; ++l) EXPECT_EQ(shapes[l], kernel.pair_shape(double(square[l])));
+  EXPECT_EQ(kernel.pair_shape(1e60), 0);
+}
+
 TEST_P(Kernels, IsExactlyZeroBeyondItsSupport) {
   const Kernel<2> kernel(h, GetParam());
   for (const double r : {kernel.support * (1 + 1e-15), 2.001 * h, 1.0, 1e30}) {

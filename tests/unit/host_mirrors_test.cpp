@@ -58,6 +58,8 @@ double lattice_moment(const Kernel<2>& kernel) {
   return sum;
 }
 
+constexpr double single_rounding = 5.96e-8; // relative, of one operation: the kernel's
+
 /// Expects the acceleration (0, `vertical`), m/s2, wherever the support is complete: to rounding, and to what
 /// the lattice's moment lacks in `vertical` and in the balance of radial and hoop stress.
 template <class Geometry> void expect_acceleration(const Simulation<Geometry>& s, double vertical) {
@@ -69,7 +71,7 @@ template <class Geometry> void expect_acceleration(const Simulation<Geometry>& s
     if (p.position[1][i] > height - s.kernel.support) continue;
     const double radial = Geometry::hoop ? std::abs(p.stress[0][i]) / (1500 * p.position[0][i]) : 0;
     const double allowed[2] = {lacking * radial, lacking * vertical},
-                 rounding = 1e-12 * 700 / (1500 * spacing);
+                 rounding = 2 * single_rounding * 700 / (1500 * spacing);
     for (int a = 0; a < 2; ++a) {
       const double found = p.stress_acceleration[a][i] + p.wall_acceleration[a][i];
       worst = std::max(worst, std::abs(found - (a == 1 ? vertical : 0)) - allowed[a] - rounding);

@@ -127,6 +127,58 @@ TEST(Neighbours, ListsHoldWhileParticlesMoveHalfTheSkin) {
   EXPECT_GT(pairs, 10 * p.count);
 }
 
+/// Pruned lists are the outer ones less what is far, in the same order, and all sums of pairs are the same to the last bit.
+template <class Geometry> void expect_pruned(double width) {
+  auto s = scattered<Geometry>(1003, width, 3, 10);
+  auto& p = s.particles;
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal(0, 1);
+  for (auto& a : p.velocity)
+    for (int i = 0; i < p.count; ++i) a[i] = normal(random);
+  for (auto& a : p.stress)
+    for (int i = 0; i < p.count; ++i) a[i] = 1e3 * normal(random);
+  p.wave_speed.assign(p.padded(), 30);
+  arrange(s, 0.25 * reach, 1.2 * s.kernel.support);
+  find_lists(s, 1.2 * s.kernel.support);
+  show_stress(p, s.scene, s.kernel.h, s.records);
+  reflect_stress(s.images, s.mirrors, s.records);
+  const auto sums = [&] {
+    update_gradient(p, s.kernel, s.lists, s.records);
+    update_acceleration(p, s.kernel, s.lists, s.records, s.scene);
+    std::vector<double> all;
+    p.each_of_stages([&](const Array& a) { all.insert(all.end(), a.begin(), a.begin() + p.count); });
+    return all;
+  };
+  const auto by_outer = sums();
+  s.outer_lists = s.lists;
+  const double near = 1.01 * s.kernel.support;
+  prune(p, s.records, near, s.outer_lists, s.lists);
+  EXPECT_EQ(sums(), by_outer);
+  long kept = 0, all = 0;
+  for (int c = 0; c < p.clusters(); ++c) {
+    std::vector<int> expected;
+    int interior = 0;
+    for (int k = 0; k < s.outer_lists.total[c]; ++k) {
+      const int j = s.outer_lists.begin(c)[k];
+      bool close = false;
+      for (int i = c * lanes; i < std::min((c + 1) * lanes, p.count); ++i) close |= distance(s, i, j) <= near;
+      if (!close) continue;
+      expected.push_back(j);
+      interior += k < s.outer_lists.interior[c];
+    }
+    EXPECT_EQ(std::vector<int>(s.lists.begin(c), s.lists.begin(c) + s.lists.total[c]), expected);
+    EXPECT_EQ(s.lists.interior[c], interior);
+    kept += s.lists.total[c];
+    all += s.outer_lists.total[c];
+  }
+  EXPECT_LT(kept, 0.95 * double(all));
+}
+
+TEST(Neighbours, PruningChangesNoSum) {
+  expect_pruned<PlaneStrain>(0.8 * side);
+  expect_pruned<ThreeDimensional>(0.4 * side);
+}
+
 TEST(Neighbours, SortingKeepsEachParticleTogether) {
   auto s = scattered(1003, side, 3, 8);
   auto& p = s.particles;

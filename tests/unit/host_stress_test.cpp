@@ -254,6 +254,26 @@ TEST(Stress, WhatIsThrownOffIsNotStrainedFurtherApart) {
   }
 }
 
+TEST(Stress, WhatIsThrownOffInThePlaneIsNotStrainedOutOfIt) {
+  constexpr double rate = 10, density = 600;
+  auto p = random_particles<PlaneStrain>(70);
+  for (auto* arrays : {&p.stress, &p.stress_diffusion})
+    for (auto& a : *arrays) a.assign(a.size(), 0.0);
+  for (auto& g : p.velocity_gradient) g.assign(g.size(), 0.0);
+  p.velocity_gradient[0].assign(p.padded(), 3 * rate);
+  p.velocity_gradient[3].assign(p.padded(), rate);
+  p.density.assign(p.padded(), density);
+  auto blocks = make_stress_blocks(elastic(), p, 0.002);
+  blocks.loosest = 750;
+  update_stress(p, {{"shows_strain", nullptr, shows_strain}, "SHOWN", {0.0}, 0}, {dt, dt, dt}, blocks);
+  for (int i = 0; i < p.count; ++i) {
+    EXPECT_NEAR(p.stress[0][i], rate * dt, 1e-15); // what changes the shape goes on
+    EXPECT_NEAR(p.stress[1][i], -rate * dt, 1e-15);
+    EXPECT_EQ(p.stress[2][i], 0);
+    EXPECT_NEAR(p.density[i], density, 1e-12 * density);
+  }
+}
+
 TEST(Stress, NamesTheFirstParticleWithoutANumber) {
   for (const int first : {0, 3, 64, 150, 196})
     for (const double in_state : {0, 1}) {

@@ -61,6 +61,40 @@ template <class Geometry> void run_until(host::Simulation<Geometry>& s, double t
   while (s.time < time) host::step(s);
 }
 
+/// Largest gap between sand and a level base at height `base`, spacings: for places on it half a spacing apart, what the
+/// lowest particle above each (within 0.75 spacings sideways) leaves free below itself, half a spacing being its own.
+/// Up to a spacing inside of the outermost of these particles.
+template <class Geometry> double gap_above(const host::Simulation<Geometry>& s, double base) {
+  constexpr int D = Geometry::dimension, H = D - 1;
+  const double spacing = s.scene.spacing;
+  const auto& p = s.particles;
+  std::array<double, H> from, to;
+  from.fill(host::unbounded);
+  to.fill(-host::unbounded);
+  for (int i = 0; i < p.count; ++i)
+    for (int a = 0; a < H; ++a) {
+      if (p.position[H][i] > base + 1.5 * spacing) continue;
+      from[a] = std::min(from[a], p.position[a][i] + spacing);
+      to[a] = std::max(to[a], p.position[a][i] - spacing);
+    }
+  double widest = 0;
+  for (std::array<double, H> at = from; at[H - 1] <= to[H - 1];) {
+    double lowest = host::unbounded;
+    for (int i = 0; i < p.count; ++i) {
+      double aside = 0;
+      for (int a = 0; a < H; ++a) aside = std::max(aside, std::abs(p.position[a][i] - at[a]));
+      if (aside <= 0.75 * spacing) lowest = std::min(lowest, p.position[H][i] - base);
+    }
+    widest = std::max(widest, lowest / spacing - 0.5);
+    at[0] += 0.5 * spacing;
+    if (H == 2 && at[0] > to[0]) {
+      at[0] = from[0];
+      at[H - 1] += 0.5 * spacing;
+    }
+  }
+  return widest;
+}
+
 /// Mean force on a wall over the time of `f`, N; the last entry is the normal one.
 struct MeanForce {
   host::WallVector force{};
