@@ -86,6 +86,13 @@ template <class Geometry> Speeds fastest_of(const Particles<Geometry>& p) {
   return {largest(sum), largest(flow), largest(hoop)};
 }
 
+/// Of the walls of the list in the next `dt`, m/s.
+double fastest_wall(const Scene& scene, double time, double dt) {
+  double fastest = 0;
+  for (const Wall& wall : scene.walls) fastest = std::max(fastest, wall.motion.fastest(time, time + dt));
+  return fastest;
+}
+
 [[noreturn]] void step_too_short(const auto& s, double fastest) {
   const auto& p = s.particles;
   int at = 0;
@@ -101,7 +108,7 @@ template <class Geometry> Speeds fastest_of(const Particles<Geometry>& p) {
 /// Step from the current wave speed; in axisymmetry also from the hoop stiffness, with which a ring of radius r swings
 /// at c / r. It shrinks at once and grows slowly: a deposit that opens up for a moment shows no wave, and stiffens
 /// again within a few steps. Sand in flight shows hardly any and stiffens all at once where it lands: there the way of a
-/// step bounds it, and its strain with the velocity gradients of the step before.
+/// step, its own or that of a wall, bounds it, and its strain with the velocity gradients of the step before.
 template <class Geometry> void choose_step(Simulation<Geometry>& s) {
   constexpr double growth = 1.02, smallest = 1e-3; // of the step before; of the first step
   constexpr double way = 0.05, strain = 0.005;     // spacings; flowing columns stay below both
@@ -111,8 +118,9 @@ template <class Geometry> void choose_step(Simulation<Geometry>& s) {
   const double growing = 1 + 0.5 * s.scene.numerics.wave_speed_tolerance; // of a modulus: at most with stress
   const double by_wave =
       std::min(s.scene.numerics.step_factor * s.kernel.h / fastest.sum, swing / fastest.hoop) / growing;
-  const double by_motion = std::min(way * s.scene.spacing / fastest.flow, strain / s.steepest);
-  s.dt = s.steps == 0 ? by_wave : std::min({by_wave, by_motion, growth * s.dt});
+  const double flow = std::max(fastest.flow, fastest_wall(s.scene, s.time, by_wave));
+  const double by_motion = std::min(way * s.scene.spacing / flow, strain / s.steepest);
+  s.dt = std::min({by_wave, by_motion, s.steps == 0 ? by_wave : growth * s.dt});
   if (s.steps == 0) s.first_dt = s.dt;
   if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt)) step_too_short(s, fastest.sum);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/wall.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace host {
 
@@ -15,6 +16,21 @@ WallVector WallMotion::displacement(double at) const {
     for (int a = 0; a < 3; ++a) sum[a] += integral(to, a) - integral(from, a);
   }
   return sum;
+}
+
+double WallMotion::fastest(double from, double to) const {
+  double most = 0;
+  for (std::size_t k = 0; k + 1 < time.size(); ++k) {
+    const double first = std::max(from, time[k]), last = std::min(to, time[k + 1]);
+    if (first > last) continue;
+    for (const double at : {first, last}) { // largest at an end of a straight piece
+      const double share = (at - time[k]) / (time[k + 1] - time[k]);
+      double square = 0;
+      for (int a = 0; a < 3; ++a) square += std::pow(std::lerp(velocity[k][a], velocity[k + 1][a], share), 2);
+      most = std::max(most, std::sqrt(square));
+    }
+  }
+  return most;
 }
 
 } // namespace host

@@ -21,7 +21,8 @@ struct WallMotion {
   std::vector<double> time;         ///< s, increasing; empty: the wall is fixed
   std::vector<WallVector> velocity; ///< m/s, one for each time
 
-  WallVector displacement(double at) const; ///< m, since time 0
+  WallVector displacement(double at) const;     ///< m, since time 0
+  double fastest(double from, double to) const; ///< m/s, largest speed between two times
   /// Last time at which the wall moves, s; 0 for a fixed one.
   double end() const { return time.empty() ? 0 : time.back(); }
 };

@@ -106,15 +106,20 @@ TEST(Flow, NoiseOfStressAndDriftOfTheVoidRatio) {
 
 TEST(Flow, NoParticleIsThrownOff) {
   charts::StabilityCase column{.material = "simsand", .geometry = host::GeometryKind::axisymmetric};
-  const auto ours = charts::run_stability_case(column);
-  column.viscosity = column.stress_diffusion = 0;
-  const auto bare = charts::run_stability_case(column);
-  std::printf("thrown off: %.3f of the particles (%s), undamped %.3f (%s)\n", ours.thrown,
-              ours.verdict.c_str(), bare.thrown, bare.verdict.c_str());
-  EXPECT_EQ(ours.thrown, 0);
-  EXPECT_EQ(ours.verdict, "holds");
-  EXPECT_GT(bare.thrown, 0);
-  EXPECT_NE(bare.verdict, "holds");
+  double thrown_bare = 0;
+  for (const double factor : {0.4, 0.39, 0.41, 0.38, 0.42}) { // runs that are alike but for their noise
+    column.step_factor = factor;
+    auto undamped = column;
+    undamped.viscosity = undamped.stress_diffusion = 0;
+    const auto ours = charts::run_stability_case(column), bare = charts::run_stability_case(undamped);
+    std::printf("thrown off: %.3f of the particles (%s), undamped %.3f (%s)\n", ours.thrown,
+                ours.verdict.c_str(), bare.thrown, bare.verdict.c_str());
+    EXPECT_EQ(ours.thrown, 0);
+    EXPECT_EQ(ours.verdict, "holds");
+    thrown_bare = std::max(thrown_bare, bare.thrown);
+    EXPECT_NE(bare.verdict, "holds");
+  }
+  EXPECT_GT(thrown_bare, 0.01);
 }
 
 /// Fronts, r0: where the deposit is one grain high, where it is one spacing high, and the outermost particle.

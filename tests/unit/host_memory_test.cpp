@@ -41,8 +41,8 @@ double status(const std::string& key) {
   return 0;
 }
 
-TEST(Memory, OfAParticleOfTheWholeColumnInThreeDimensions) {
-  const auto scene = tests::column_scene({.geometry = "three_dimensional\"\nsector = \"full"}, "memory");
+/// Of the whole column in three dimensions, with the images of all walls: there are never more.
+void expect_bounded(const Scene& scene) {
   { // the program's own pages come first
     auto small = start_simulation<ThreeDimensional>(tests::column_scene(
         {.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007}, "memory_small"));
@@ -51,7 +51,7 @@ TEST(Memory, OfAParticleOfTheWholeColumnInThreeDimensions) {
   malloc_trim(0);
   const double before = status("VmRSS");
   auto s = start_simulation<ThreeDimensional>(scene);
-  update_lists(s); // with the images of floor and gate: there are never more
+  update_lists(s);
   const auto memory = memory_of(s);
   malloc_trim(0); // what the search for neighbours needed for a moment goes back to the system
   const double count = s.particles.count, growth = status("VmRSS") - before;
@@ -60,6 +60,27 @@ TEST(Memory, OfAParticleOfTheWholeColumnInThreeDimensions) {
   EXPECT_LE((growth - double(memory.lists)) / count, most_per_particle) << "as the system sees it";
   std::printf("%.0f bytes of data per particle, %.0f of lists; the process grew by %.0f\n",
               memory.data / count, memory.lists / count, growth / count);
+}
+
+/// A column in a tube that is lifted, by a list of walls.
+Scene walled_scene(double spacing) {
+  return tests::wall_scene(
+      {.geometry = "three_dimensional\"\nsector = \"full",
+       .column = "radius = 0.05\nheight = 0.05",
+       .material = tests::sand("TS", 0.4451),
+       .walls = "[[wall]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"
+                "friction = 0.5\n[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\n"
+                "radius = 0.05\nlower = 0\nfriction = 0\nvelocity = [0, 0, 1.6]\n",
+       .spacing = spacing},
+      "memory_walls");
+}
+
+TEST(Memory, OfAParticleOfTheWholeColumnInThreeDimensions) {
+  expect_bounded(tests::column_scene({.geometry = "three_dimensional\"\nsector = \"full"}, "memory"));
+}
+
+TEST(Memory, OfAParticleAmongWalls) {
+  expect_bounded(walled_scene(0.002));
 }
 
 template <class Geometry> void expect_no_allocation(const Scene& scene) {
@@ -84,17 +105,7 @@ TEST(Memory, AStepAllocatesNothing) {
   expect_no_allocation<Axisymmetric>(tests::column_scene({.spacing = 0.004}, "allocation"));
   expect_no_allocation<ThreeDimensional>(tests::column_scene(
       {.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007}, "allocation"));
-  expect_no_allocation<ThreeDimensional>(tests::wall_scene(
-      {.geometry = "three_dimensional\"\nsector = \"full",
-       .column = "radius = 0.05\nheight = 0.05",
-       .material = tests::sand("TS", 0.4451),
-       .walls =
-           "[[wall]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction "
-           "= "
-           "0.5\n[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.05\nlower = "
-           "0\nfriction = 0\nvelocity = [0, 0, 1.6]\n",
-       .spacing = 0.007},
-      "allocation"));
+  expect_no_allocation<ThreeDimensional>(walled_scene(0.007));
   omp_set_num_threads(threads);
 }
 
