@@ -18,7 +18,7 @@ template <class Point> double reflect_position(const Mirror& m, Point& position)
     position[m.axis] = 2 * m.position - position[m.axis];
     return 1;
   }
-  const double r = std::hypot(position[0], position[1]), stretch = (2 * m.position - r) / r;
+  const double r = from_axis(position), stretch = (2 * m.position - r) / r;
   position[0] *= stretch;
   position[1] *= stretch;
   return stretch;
@@ -53,15 +53,25 @@ template <class Real> void reflect_symmetric(const std::array<double, 3>& n, dou
           Real((a == b ? 1 : shear) * (4 * normal * n[a] * n[b] - 2 * (n[a] * t[b] + t[a] * n[b])));
 }
 
-/// The same in two dimensions, where mirrors stand along the axes: shear changes its sign.
+/// Where mirrors stand along the axes, shear with their own changes its sign; at a cylinder `n` counts.
 template <class Geometry>
-void reflect_symmetric(const std::array<double, 2>&, StressRecord<Geometry>& record) {
+void reflect_symmetric(const Mirror&, const std::array<double, 2>&, StressRecord<Geometry>& record) {
   record.stress[3] = -record.stress[3];
   record.strain_rate[2] = -record.strain_rate[2];
 }
-void reflect_symmetric(const std::array<double, 3>& n, StressRecord<ThreeDimensional>& record) {
-  reflect_symmetric(n, 1, record.stress);
-  reflect_symmetric(n, 2, record.strain_rate);
+void reflect_symmetric(const Mirror& mirror, const std::array<double, 3>& n,
+                       StressRecord<ThreeDimensional>& record) {
+  if (mirror.cylinder()) {
+    reflect_symmetric(n, 1, record.stress);
+    reflect_symmetric(n, 2, record.strain_rate);
+    return;
+  }
+  for (int b = 0; b < 3; ++b) {
+    if (b == mirror.axis) continue;
+    const int shear = component<3>(mirror.axis, b);
+    record.stress[shear] = -record.stress[shear];
+    record.strain_rate[shear] = -record.strain_rate[shear];
+  }
 }
 
 /// Stress and velocity gradient behind a mirror. Reflection turns the sign of shear on a plane, but where nothing slips;
@@ -70,7 +80,7 @@ void reflect_symmetric(const std::array<double, 3>& n, StressRecord<ThreeDimensi
 template <class Geometry, std::size_t D>
 void reflect_tensors(const Mirror& mirror, const std::array<double, D>& n, double depth,
                      StressRecord<Geometry>& record) {
-  if (!mirror.no_slip) reflect_symmetric(n, record);
+  if (!mirror.no_slip) reflect_symmetric(mirror, n, record);
   for (std::size_t a = 0; a < D; ++a)
     record.stress[a] -= mirror.weight_gradient * 2 * depth * (a == D - 1 ? 1 : mirror.horizontal_ratio);
 }

@@ -5,6 +5,7 @@
 #pragma once
 #include "host/records.hpp"
 #include "host/scene.hpp"
+#include <cmath>
 
 namespace host {
 
@@ -24,9 +25,14 @@ struct Mirror {
   bool cylinder() const { return axis == radial; }
 };
 
+/// Distance from the vertical axis, m. (A few times faster than std::hypot, which guards against overflow.)
+template <class Point> inline double from_axis(const Point& x) {
+  return std::sqrt(x[0] * x[0] + x[1] * x[1]);
+}
+
 /// Distance from the mirror, m, positive on the side of the material.
 template <class Point> inline double depth_behind(const Mirror& m, const Point& x) {
-  if (m.cylinder()) return m.position - std::hypot(x[0], x[1]);
+  if (m.cylinder()) return m.position - from_axis(x);
   return m.positive_side ? x[m.axis] - m.position : m.position - x[m.axis];
 }
 
@@ -34,7 +40,7 @@ template <class Point> inline double depth_behind(const Mirror& m, const Point& 
 template <int D> inline std::array<double, D> normal_at(const Mirror& m, const double (&x)[D]) {
   std::array<double, D> n{};
   if (m.cylinder()) {
-    const double r = std::hypot(x[0], x[1]);
+    const double r = from_axis(x);
     n[0] = -x[0] / r;
     n[1] = -x[1] / r;
   } else
