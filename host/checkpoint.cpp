@@ -166,6 +166,13 @@ void check_lengths(const std::filesystem::path& path, Simulation<Geometry>& s, s
   const std::size_t clusters = listed ? std::size_t(s.particles.clusters()) : 0;
   fits = fits && s.outer_lists.interior.size() == clusters && s.outer_lists.total.size() == clusters &&
          s.outer_lists.entries.size() >= clusters * std::size_t(s.outer_lists.capacity);
+  const int records = s.particles.padded() + int(s.images.list.size());
+  for (std::size_t c = 0; fits && c < clusters; ++c) {
+    const int total = s.outer_lists.total[c], *entries = s.outer_lists.begin(int(c));
+    fits = s.outer_lists.interior[c] >= 0 && s.outer_lists.interior[c] <= total &&
+           total <= s.outer_lists.capacity &&
+           std::all_of(entries, entries + total, [&](int j) { return j >= 0 && j < records; });
+  }
   if (!fits) refuse(path, "its particles are not those of the scene");
 }
 

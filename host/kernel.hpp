@@ -31,7 +31,7 @@ template <int Dimension> struct Kernel {
   }
 
   /// W'(r)/r over `pair_scale`, from the square of r, in single precision: half the work. It is alike from both sides of a pair, and
-  /// the velocity gradient, corrected by the same weights, is exact as before.
+  /// the velocity gradient, corrected by the same weights, is exact as before. Exactly zero from 1e-7 of the support beyond it.
   template <class Real> Single<Real> pair_shape(const Real& square) const {
     const Single<Real> reach = Single<Real>{} + float(support),
                        r = smaller(square_root(single(square)), reach);

@@ -29,14 +29,26 @@ template <class Geometry> double list_reach(const Simulation<Geometry>& s) {
   return s.kernel.support + s.scene.numerics.skin * s.scene.spacing;
 }
 
-/// How far a wall of the list has moved since a time, m: its images move by twice as much.
+/// How far the walls of the list have moved since a time, m, together: images move by twice as much.
 template <class Geometry> double wall_travel(const Simulation<Geometry>& s, double since) {
-  double furthest = 0;
+  double all = 0;
   for (const Wall& wall : s.scene.walls) {
     const auto now = wall.motion.displacement(s.time), then = wall.motion.displacement(since);
-    furthest = std::max(furthest, std::hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]));
+    all += std::hypot(now[0] - then[0], now[1] - then[1], now[2] - then[2]);
   }
-  return furthest;
+  return all;
+}
+
+/// How far particles and images may have come towards each other, m over two, when particles have moved by up to `way`
+/// since a time: behind a hollow cylinder an image moves along the wall by more than its particle.
+template <class Geometry> double approach_bound(const Simulation<Geometry>& s, double way, double since) {
+  double growth = 1;
+  if (Geometry::dimension == 3)
+    for (const Wall& wall : s.walls)
+      if (wall.shape == WallShape::cylinder && wall.inside)
+        growth = std::max(growth, (wall.radius + list_reach(s)) /
+                                      std::max(wall.radius - list_reach(s), 0.1 * wall.radius));
+  return 0.5 * (1 + growth) * way + wall_travel(s, since);
 }
 
 /// The skin of pruned lists, of the one of the outer lists.
@@ -54,10 +66,11 @@ template <class Geometry> void update_neighbours(Simulation<Geometry>& s) {
   move_gate(s.mirrors, s.scene, s.time);
   if (!s.surfaces.empty()) find_surfaces(s.walls, s.scene.geometry, s.time, s.dt_before, s.surfaces);
   const double half_skin = 0.5 * s.scene.numerics.skin * s.scene.spacing;
-  if (s.rebuilds == 0 || s.moved + wall_travel(s, s.listed_time) > half_skin) return update_lists(s);
+  if (s.rebuilds == 0 || approach_bound(s, s.moved, s.listed_time) > half_skin) return update_lists(s);
   show_all_motion(s);
-  const double since = s.moved - s.moved_when_pruned + wall_travel(s, s.pruned_time);
-  if (s.moved_when_pruned < 0 || since > narrow * half_skin) prune_lists(s);
+  if (s.moved_when_pruned < 0 ||
+      approach_bound(s, s.moved - s.moved_when_pruned, s.pruned_time) > narrow * half_skin)
+    prune_lists(s);
 }
 
 /// Flow speed of the particles of cluster c, m/s.
@@ -121,7 +134,7 @@ template <class Geometry> void choose_step(Simulation<Geometry>& s) {
   const double flow = std::max(fastest.flow, fastest_wall(s.scene, s.time, by_wave));
   const double by_motion = std::min(way * s.scene.spacing / flow, strain / s.steepest);
   s.dt = std::min({by_wave, by_motion, s.steps == 0 ? by_wave : growth * s.dt});
-  if (s.steps == 0) s.first_dt = s.dt;
+  if (s.steps == 0) s.first_dt = by_wave;
   if (!(s.dt > smallest * s.first_dt) || !std::isfinite(s.dt)) step_too_short(s, fastest.sum);
 }
 

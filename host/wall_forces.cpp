@@ -29,9 +29,10 @@ Point<D> acceleration(const Kernel<D>& kernel, const Records<Geometry>& records,
                   sums);
   sums.scale(kernel.pair_scale());
   const double inverse_weight = Geometry::hoop ? 1 / side.weight : 1;
+  const double damping = (Geometry::hoop ? 0.125 : 0.25) * kernel.h;
   Point<D> a{};
   for (int c = 0; c < D; ++c) {
-    a[c] = inverse_weight * (sums.stress_force[c] + 0.25 * kernel.h * sums.viscous[c]);
+    a[c] = inverse_weight * (sums.stress_force[c] + damping * sums.viscous[c]);
     for (int b = 0; b < D; ++b) a[c] += records.stress[i].stress[component<D>(c, b)] * sums.slope[b];
     a[c] /= side.density;
   }

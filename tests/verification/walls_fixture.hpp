@@ -62,8 +62,8 @@ template <class Geometry> void run_until(host::Simulation<Geometry>& s, double t
 }
 
 /// Largest gap between sand and a level base at height `base`, spacings: for places on it half a spacing apart, what the
-/// lowest particle above each (within 0.75 spacings sideways) leaves free below itself, half a spacing being its own.
-/// Up to a spacing inside of the outermost of these particles.
+/// lowest particle above each (within 0.75 spacings sideways) leaves free below itself, half a spacing being its own;
+/// negative where all are nearer. Up to a spacing inside of the outermost particles.
 template <class Geometry> double gap_above(const host::Simulation<Geometry>& s, double base) {
   constexpr int D = Geometry::dimension, H = D - 1;
   const double spacing = s.scene.spacing;
@@ -73,11 +73,10 @@ template <class Geometry> double gap_above(const host::Simulation<Geometry>& s, 
   to.fill(-host::unbounded);
   for (int i = 0; i < p.count; ++i)
     for (int a = 0; a < H; ++a) {
-      if (p.position[H][i] > base + 1.5 * spacing) continue;
       from[a] = std::min(from[a], p.position[a][i] + spacing);
       to[a] = std::max(to[a], p.position[a][i] - spacing);
     }
-  double widest = 0;
+  double widest = -host::unbounded;
   for (std::array<double, H> at = from; at[H - 1] <= to[H - 1];) {
     double lowest = host::unbounded;
     for (int i = 0; i < p.count; ++i) {
