@@ -14,12 +14,15 @@
 namespace drivers {
 namespace {
 
+// Both from the runs of tests/benchmark/plan.py, which scatter about them by 0.9 to 1.2 and 0.8 to 1.4.
+
 /// Mean step of a collapse over the first one: the column stiffens where it is squeezed and softens where it
-/// spreads, a tall one more than a low one. Mean cost of a step over that of the first ones: flowing sand takes more of the material, and results are
-/// written. Both from the runs of tests/benchmark/plan.py, which scatter about them by 0.9 to 1.2 and 0.8 to 1.4.
+/// spreads, a tall one more than a low one.
 double mean_step(double aspect) {
   return 0.88 * std::pow(aspect, 0.08);
 }
+
+/// Mean cost of a step over that of the first ones: flowing sand takes more of the material, and results are written.
 constexpr double flowing = 1.25;
 
 /// CPU seconds of this thread, which has its share in every stage: what the clock on the wall would show if the

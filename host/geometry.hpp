@@ -15,6 +15,14 @@ template <int Dimension> constexpr int component(int a, int b) {
   return Dimension == 2 ? 3 : (a + b == 1 ? 3 : (a + b == 3 ? 4 : 5));
 }
 
+/// Axes of component c of a symmetric tensor in the plane or in space: D normal ones, then 12, 23, 31.
+template <int D> constexpr int first_axis(int c) {
+  return c < D ? c : (c - D) % D;
+}
+template <int D> constexpr int second_axis(int c) {
+  return c < D ? c : (c - D + 1) % D;
+}
+
 /// x horizontal, y vertical, unit thickness.
 struct PlaneStrain {
   static constexpr const char* name = "plane_strain";

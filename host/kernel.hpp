@@ -30,8 +30,9 @@ template <int Dimension> struct Kernel {
     return slope * (o3 * (o * o)) * (1.0 + 5.0 * q);
   }
 
-  /// W'(r)/r over `pair_scale`, from the square of r, in single precision: half the work. It is alike from both sides of a pair, and
-  /// the velocity gradient, corrected by the same weights, is exact as before. Exactly zero from 1e-7 of the support beyond it.
+  /// W'(r)/r over `pair_scale`, from the square of r, m2, in single precision: half the work. It is alike from both
+  /// sides of a pair, and the velocity gradient, corrected by the same weights, stays exact. Exactly zero from 1e-7 of
+  /// the support beyond it.
   template <class Real> Single<Real> pair_shape(const Real& square) const {
     const Single<Real> reach = Single<Real>{} + float(support),
                        r = smaller(square_root(single(square)), reach);
@@ -39,6 +40,7 @@ template <int Dimension> struct Kernel {
     if (kind == KernelKind::wendland_c2) return d2 * d;
     return d2 * d2 * d * (1 + float(5 * half_inverse_h) * r);
   }
+  /// What sums of `pair_shape` are multiplied by at their end.
   double pair_scale() const {
     const double power = half_inverse_h * half_inverse_h * half_inverse_h;
     return slope * (kind == KernelKind::wendland_c2 ? power : power * half_inverse_h * half_inverse_h);

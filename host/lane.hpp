@@ -40,17 +40,11 @@ inline double square_root(double a) {
   return std::sqrt(a);
 }
 
-inline Lane larger(const Lane& a, const Lane& b) {
+/// Of one number or of each of eight.
+template <class Real> inline Real larger(const Real& a, const Real& b) {
   return a > b ? a : b;
 }
-inline double larger(double a, double b) {
-  return a > b ? a : b;
-}
-
-inline Lane smaller(const Lane& a, const Lane& b) {
-  return a < b ? a : b;
-}
-inline double smaller(double a, double b) {
+template <class Real> inline Real smaller(const Real& a, const Real& b) {
   return a < b ? a : b;
 }
 
@@ -84,19 +78,6 @@ inline float square_root(float a) {
 /// SingleLane for Lane, float for double.
 template <class Real> using Single = decltype(single(Real{}));
 
-inline SingleLane larger(const SingleLane& a, const SingleLane& b) {
-  return a > b ? a : b;
-}
-inline float larger(float a, float b) {
-  return a > b ? a : b;
-}
-inline SingleLane smaller(const SingleLane& a, const SingleLane& b) {
-  return a < b ? a : b;
-}
-inline float smaller(float a, float b) {
-  return a < b ? a : b;
-}
-
 inline double sum(const Lane& a) {
   return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
 }
@@ -129,10 +110,11 @@ inline bool any_within(const Lane& a, double limit) {
 inline bool any(const decltype(Lane{} < Lane{}) & mask) {
 #ifdef __AVX512F__
   return _mm512_test_epi64_mask(__m512i(mask), __m512i(mask)) != 0;
-#endif
+#else
   auto joined = mask[0];
   for (int l = 1; l < lanes; ++l) joined |= mask[l];
   return joined != 0;
+#endif
 }
 
 /// f(x) of each.

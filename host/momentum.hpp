@@ -26,7 +26,8 @@ namespace host {
 template <class Geometry, class Real> struct PairSide {
   static constexpr int D = Geometry::dimension;
   Real position[D], velocity[D], weight;
-  Single<Real> density, damping_speed, strain_rate[D * (D + 1) / 2], radius;
+  Single<Real> density, damping_speed, strain_rate[D * (D + 1) / 2]; ///< what only the viscosity reads
+  Single<Real> radius; ///< the first coordinate, which in axisymmetry is the weight; for the viscosity too
 };
 
 /// Sums over the neighbours of a particle (or of eight), with g = V_j grad W_ij = w x.
@@ -49,14 +50,6 @@ template <class Geometry, class Real> struct PairSums {
 /// Additions and multiplications of one pair; square root and division count as one.
 template <class Geometry>
 constexpr double pair_flops = Geometry::dimension == 3 ? 106 : (Geometry::hoop ? 73 : 69);
-
-/// Axes of component c of the strain rate.
-template <int D> constexpr int first_axis(int c) {
-  return c < D ? c : (c - D) % D;
-}
-template <int D> constexpr int second_axis(int c) {
-  return c < D ? c : (c - D + 1) % D;
-}
 
 /// 4/h times the artificial pressure of a pair (in axisymmetry 8/h times that times the mean radius): `x` apart, with
 /// `whole` = (v_i - v_j) . x and `square` = r2 + 0.01 h2. The part of `whole` that the mean velocity gradient does not

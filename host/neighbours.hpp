@@ -25,8 +25,9 @@ template <class Geometry>
 void find_neighbours(const Particles<Geometry>& particles, const Images& images,
                      const Records<Geometry>& records, double reach, NeighbourLists& lists);
 
-/// Keeps of `outer`, in its order, what is within `reach` of one of the particles now. What is left out adds exactly nothing to
-/// the sums of pairs as long as it stays beyond the support, so that results do not depend on when this is done.
+/// Keeps of `outer`, in its order, what is within `reach` of one of the particles now. What is left out adds exactly
+/// nothing to the sums of pairs as long as it stays beyond the support, so that results do not depend on when this is
+/// done.
 template <class Geometry>
 void prune(const Particles<Geometry>& particles, const Records<Geometry>& records, double reach,
            const NeighbourLists& outer, NeighbourLists& lists);

@@ -34,7 +34,7 @@ template <class Geometry> struct Simulation {
   long prunings = 0;             ///< since the start or the resumption
 
   double time = 0;                            ///< s
-  double dt = 0, dt_before = 0, first_dt = 0; ///< s: this step, the last, the first
+  double dt = 0, dt_before = 0, first_dt = 0; ///< s: this step, the last, the first as waves bound it
   double steepest = 0; ///< 1/s, largest component of the velocity gradients of the last step
   long steps = 0, rebuilds = 0;
   Work work{};

@@ -123,7 +123,7 @@ void show_stress_of(Particles<Geometry>& p, int first, int used, const ClusterGr
   Lane square{}, rate[rates];
   for (const Lane& g : gradient) square += g * g;
   for (int c = 0; c < rates; ++c) {
-    const int a = c < D ? c : (c - D) % D, b = c < D ? c : (c - D + 1) % D;
+    const int a = first_axis<D>(c), b = second_axis<D>(c);
     rate[c] = a == b ? gradient[a * D + a] : gradient[a * D + b] + gradient[b * D + a];
   }
   const Lane norm = square_root(square), wave_speed = load(&p.wave_speed[first]);
