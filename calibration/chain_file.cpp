@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/chain_file.hpp"
 #include "calibration/chain_image.hpp"
-#include "host/hdf5_write.hpp"
-#include "host/whole_file.hpp"
+#include "host/files/hdf5_write.hpp"
+#include "host/files/whole_file.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>

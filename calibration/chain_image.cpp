@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/chain_image.hpp"
 #include "drivers/version.hpp"
-#include "host/hdf5_write.hpp"
+#include "host/files/hdf5_write.hpp"
 #include <algorithm>
 
 namespace calibration {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/coverage.hpp"
 #include "calibration/posterior.hpp"
-#include "drivers/csv_table.hpp"
+#include "drivers/files/csv_table.hpp"
 #include <algorithm>
 #include <exception>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #pragma once
 #include "calibration/free_parameters.hpp"
 #include "calibration/lab_test.hpp"
-#include "drivers/material_file.hpp"
+#include "drivers/files/material_file.hpp"
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 // the fit an unknown is a coordinate u: its value, or the logarithm of it.
 #pragma once
 #include "calibration/lab_test.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 #include <Eigen/Core>
 #include <optional>
 

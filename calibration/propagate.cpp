@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/propagate.hpp"
 #include "calibration/stored_posterior.hpp"
-#include "drivers/accuracy/deposit.hpp"
-#include "drivers/scene_file.hpp"
-#include "host/result_read.hpp"
-#include "host/whole_file.hpp"
+#include "drivers/files/scene_file.hpp"
+#include "drivers/tolerance/deposit.hpp"
+#include "host/files/result_read.hpp"
+#include "host/files/whole_file.hpp"
 #include "vumat/parameters.hpp"
 #include <algorithm>
 #include <cmath>

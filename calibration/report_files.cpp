@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The report for programs: TOML, a material file, HDF5. Layout: README.md.
 #include "calibration/report.hpp"
-#include "host/hdf5_write.hpp"
+#include "host/files/hdf5_write.hpp"
 #include "vumat/parameters.hpp"
 #include <cmath>
 #include <fmt/format.h>

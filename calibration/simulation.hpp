@@ -4,7 +4,7 @@
 // strain increment.
 #pragma once
 #include "calibration/lab_test.hpp"
-#include "drivers/material_file.hpp"
+#include "drivers/files/material_file.hpp"
 #include <span>
 
 namespace calibration {

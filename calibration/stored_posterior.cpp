@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/stored_posterior.hpp"
-#include "drivers/toml_table.hpp"
-#include "host/hdf5_write.hpp"
+#include "drivers/files/toml_table.hpp"
+#include "host/files/hdf5_write.hpp"
 #include "vumat/parameters.hpp"
 #include <algorithm>
 #include <cmath>

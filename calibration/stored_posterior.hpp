@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The posterior in a result of `simsand calibrate` (fit.h5), as a scene needs it.
 #pragma once
-#include "drivers/toml_text.hpp"
+#include "drivers/files/toml_text.hpp"
 #include "host/scene.hpp"
 #include <cstdint>
 #include <filesystem>

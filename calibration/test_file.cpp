@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/test_file.hpp"
-#include "drivers/csv_table.hpp"
+#include "drivers/files/csv_table.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

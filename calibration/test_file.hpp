@@ -3,7 +3,7 @@
 // (lab_test.hpp), and refuses what cannot be: manual in README.md.
 #pragma once
 #include "calibration/lab_test.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 #include <optional>
 
 namespace calibration {

@@ -2,23 +2,22 @@
 // The command line.
 #include "calibration/calibrate.hpp"
 #include "calibration/propagate.hpp"
-#include "drivers/abaqus_deck.hpp"
-#include "drivers/accuracy/tolerance_run.hpp"
+#include "drivers/abaqus/deck.hpp"
 #include "drivers/element/command.hpp"
-#include "drivers/info.hpp"
-#include "drivers/interrupt.hpp"
-#include "drivers/plan.hpp"
-#include "drivers/resume.hpp"
-#include "drivers/run.hpp"
-#include "drivers/scene_file.hpp"
+#include "drivers/files/scene_file.hpp"
+#include "drivers/run/info.hpp"
+#include "drivers/run/interrupt.hpp"
+#include "drivers/run/plan.hpp"
+#include "drivers/run/resume.hpp"
+#include "drivers/run/run.hpp"
 #include "drivers/study/causes.hpp"
 #include "drivers/study/channel.hpp"
 #include "drivers/study/columns.hpp"
+#include "drivers/tolerance/tolerance_run.hpp"
 #include "drivers/version.hpp"
-#include "host/vumat_library.hpp"
+#include "host/material/library.hpp"
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
@@ -54,7 +53,7 @@ void add_run_kinds(CLI::App& run, drivers::ToleranceOptions& one, calibration::P
                            "--tolerance",
                            [&one](const std::string& text) { one.tolerance = drivers::read_tolerance(text); },
                            "as 5%: chooses resolution, geometry, material, stiffness scale and precision for "
-                           "h_f and r_f within it, and estimates their error (drivers/charts/ACCURACY.md)")
+                           "h_f and r_f within it, and estimates their error (tests/charts/ACCURACY.md)")
                         ->excludes("--resume")
                         ->excludes("--plan");
   run.add_option("--data", one.data, "data folder of the project, with the chart of --tolerance");
@@ -134,7 +133,7 @@ void add_info(CLI::App& app) {
 void add_element(CLI::App& app) {
   static drivers::ElementBatch batch;
   auto* element = app.add_subcommand("element", "Lead one material point along a path of stress and strain");
-  element->add_option("PATH", batch.path_files, "path files (.toml); vocabulary: drivers/ELEMENT.md")
+  element->add_option("PATH", batch.path_files, "path files (.toml); vocabulary: drivers/element/ELEMENT.md")
       ->required();
   element->add_option("-o,--output", batch.output,
                       "table (.csv), default: standard output; several paths: folder for a table of each");
@@ -155,7 +154,9 @@ void add_abaqus(CLI::App& app) {
   static std::string file;
   static drivers::AbaqusOptions options;
   auto* abaqus = app.add_subcommand("abaqus", "Write an ABAQUS/Explicit deck of a scene");
-  abaqus->add_option("SCENE", file, "scene file (.toml), or a result file (.h5); manual: drivers/ABAQUS.md")
+  abaqus
+      ->add_option("SCENE", file,
+                   "scene file (.toml), or a result file (.h5); manual: drivers/abaqus/ABAQUS.md")
       ->required();
   abaqus->add_option("-o,--output", options.folder, "folder for the deck, the subroutine and a page")
       ->required();
@@ -215,20 +216,6 @@ void add_study(CLI::App& app) {
   command->callback([] { drivers::study_channel(channel); });
 }
 
-/// Starts the program of the charts beside this one, with the words that follow.
-void add_chart(CLI::App& app, char** argv) {
-  auto* chart =
-      app.add_subcommand("chart", "Charts that the product's choices rest on: simsand chart --help");
-  chart->prefix_command()->set_help_flag();
-  chart->callback([argv] {
-    const auto program = host::beside_program("simsand-chart");
-    char** words = argv;
-    while (*words && std::string(*words) != "chart") ++words;
-    execv(program.c_str(), words); // returns only if it fails
-    throw std::runtime_error(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
-  });
-}
-
 void add_calibrate(CLI::App& app) {
   static calibration::CalibrateOptions options;
   static int threads = 0;
@@ -284,7 +271,6 @@ int main(int argc, char** argv) {
     add_element(app);
     add_abaqus(app);
     add_study(app);
-    add_chart(app, argv);
     add_calibrate(app);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

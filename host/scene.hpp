@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is to be simulated, in SI units: everything a run needs and nothing it computes.
 #pragma once
-#include "host/kernel.hpp"
-#include "host/vumat_block.hpp"
-#include "host/wall.hpp"
+#include "host/material/block.hpp"
+#include "host/scheme/kernel.hpp"
+#include "host/walls/wall.hpp"
 #include <limits>
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 // Where a stage, or a leg of its cycles, ends before its increments do.
 #pragma once
 #include "drivers/element/columns.hpp"
-#include "drivers/load_path.hpp"
+#include "drivers/element/load_path.hpp"
 
 namespace drivers {
 

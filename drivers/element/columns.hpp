@@ -2,7 +2,7 @@
 // The columns of an element test's output: name, unit and value of each. Their order is that of ELEMENT.md.
 #pragma once
 #include "drivers/element/critical_state.hpp"
-#include "drivers/material_point.hpp"
+#include "drivers/element/material_point.hpp"
 #include <functional>
 
 namespace drivers {

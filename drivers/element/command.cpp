@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/element/command.hpp"
-#include "drivers/element.hpp"
+#include "drivers/element/element.hpp"
 #include "drivers/element/failed_call.hpp"
 #include "drivers/element/pictures.hpp"
 #include <algorithm>

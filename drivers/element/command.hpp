@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command `simsand element`: path files in, tables and pictures out.
 #pragma once
-#include "drivers/toml_text.hpp"
+#include "drivers/files/toml_text.hpp"
 
 namespace drivers {
 

@@ -2,7 +2,7 @@
 // The words of a loading path: named linear combinations of stress or strain, and conditions on them.
 // Compression positive, Pa, tensor shear strain; axis 1 is the axis of the specimen.
 #pragma once
-#include "drivers/material_caller.hpp"
+#include "host/material/caller.hpp"
 #include <string>
 #include <string_view>
 #include <vector>

@@ -2,7 +2,7 @@
 // The critical state as a yardstick for results: void ratio and stress ratio that a sand tends to. The
 // numbers of SIMSAND, or given in the path file for another material. Formulas: vumat/EQUATIONS.md (3), (6), (7).
 #pragma once
-#include "drivers/material_file.hpp"
+#include "drivers/files/material_file.hpp"
 
 namespace drivers {
 

@@ -2,7 +2,7 @@
 // Cyclic loading: the drive of a stage goes forth and back, and turns where a quantity meets its limit.
 #pragma once
 #include "drivers/element/condition.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 
 namespace drivers {
 

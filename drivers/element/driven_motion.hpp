@@ -2,8 +2,8 @@
 // A stage that is driven by the motion itself, rotation and all: a deformation gradient to be reached, or a
 // velocity gradient. Base axes, tension positive.
 #pragma once
-#include "drivers/material_point.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/element/material_point.hpp"
+#include "drivers/files/toml_table.hpp"
 
 namespace drivers {
 

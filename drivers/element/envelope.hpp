@@ -3,7 +3,7 @@
 // all directions of the Rendulic plane, whose axes are axial and sqrt(2) times radial.
 #pragma once
 #include "drivers/element/condition.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 #include <functional>
 
 namespace drivers {

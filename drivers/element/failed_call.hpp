@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Repeats one call of a subroutine: the path file with a table `[call]` that a run writes when a material fails
-// (host/reproducer.hpp). Names, components and signs of the interface, not those of other path files.
+// (host/material/reproducer.hpp). Names, components and signs of the interface, not those of other path files.
 #pragma once
-#include "drivers/material_file.hpp"
-#include "host/reproducer.hpp"
+#include "drivers/files/material_file.hpp"
+#include "host/material/reproducer.hpp"
 
 namespace drivers {
 

@@ -2,7 +2,7 @@
 // A measured path: columns of a table that drive the first conditions of a stage, row by row.
 #pragma once
 #include "drivers/element/condition.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 
 namespace drivers {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The six conditions of a stage, from its table in the path file.
 #pragma once
-#include "drivers/load_path.hpp"
+#include "drivers/element/load_path.hpp"
 
 namespace drivers {
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of `simsand chart accuracy`.
+"""Pictures of `simsand-chart accuracy`.
 
     accuracy.py FOLDER --data DATA      FOLDER/runs.csv, points.csv -> FOLDER/accuracy_*.png
 """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of element tests. Usage: element_figures.py TABLE.csv ... -o FOLDER
 
-Tables are those of `simsand element` (columns: drivers/ELEMENT.md); all of them go into each picture. Beside
+Tables are those of `simsand element` (columns: drivers/element/ELEMENT.md); all of them go into each picture. Beside
 NAME.csv the table NAME_envelope.csv, if there is one, is drawn as well. `--critical PHI E_REF LAMBDA ZETA P_AT P_MIN`
 (degrees, Pa), once per table, draws the whole critical state line; without it only the part that the test visits.
 """

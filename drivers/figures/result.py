@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads a result file (schema: host/OUTPUT.md) as numpy arrays in SI units."""
+"""Reads a result file (schema: host/files/OUTPUT.md) as numpy arrays in SI units."""
 import tomllib
 
 import h5py

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/columns.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>

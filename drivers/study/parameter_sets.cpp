@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/parameter_sets.hpp"
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 #include <H5Cpp.h>
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/runs.hpp"
-#include "drivers/build_hash.hpp"
-#include "drivers/resume.hpp"
-#include "drivers/scene_file.hpp"
+#include "drivers/files/scene_file.hpp"
+#include "drivers/run/build_hash.hpp"
+#include "drivers/run/resume.hpp"
 #include "drivers/study/jobs.hpp"
-#include "host/output.hpp"
-#include "host/result_read.hpp"
-#include "host/vumat_library.hpp"
+#include "host/files/output.hpp"
+#include "host/files/result_read.hpp"
+#include "host/material/library.hpp"
 #include <cmath>
 #include <cstdlib>
 #include <exception>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/benchmark/collapse_states.hpp"
-#include "drivers/scene_file.hpp"
-#include "host/geometry.hpp"
-#include "host/simulation.hpp"
+#include "drivers/files/scene_file.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
 #include <algorithm>
 #include <cmath>
 #include <omp.h>

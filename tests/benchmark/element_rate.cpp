@@ -2,7 +2,7 @@
 // Increments per second of processor time of a drained triaxial test through the element driver, the calls
 // and points of the VUMAT it makes per increment, and the part of the time that is the VUMAT's own. Nothing is
 // written. Medians over the turns. Usage: element_rate
-#include "drivers/element.hpp"
+#include "drivers/element/element.hpp"
 #include <algorithm>
 #include <cstdio>
 #include <ctime>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the protection of a call costs: SIMSAND in blocks of 64 yielding points, called with and without it. Many
 // turns in alternation; prints nanoseconds per point and the share.
-#include "host/vumat_block.hpp"
+#include "host/material/block.hpp"
 #include <algorithm>
 #include <array>
 #include <cstdio>

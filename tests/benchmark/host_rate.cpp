@@ -7,10 +7,10 @@
 // Flops are counted in the source, for all entries of the lists, since an entry is computed for all eight particles;
 // additions, multiplications, square roots and divisions one each. Those of the material are its own affair. Bytes
 // are those of the arrays that a part reads and writes for a particle, and for pairs of the neighbours' records.
-#include "drivers/scene_file.hpp"
-#include "host/geometry.hpp"
-#include "host/material_calls.hpp"
-#include "host/simulation.hpp"
+#include "drivers/files/scene_file.hpp"
+#include "host/engine/material_calls.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/benchmark/peaks.hpp"
 #include <algorithm>
 #include <chrono>

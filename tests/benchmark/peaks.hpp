@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What one core of this machine can do at most, measured: the ceilings that the stages of a step are held against.
 #pragma once
-#include "host/lane.hpp"
+#include "host/scheme/lane.hpp"
 #include <algorithm>
 #include <chrono>
 #include <vector>

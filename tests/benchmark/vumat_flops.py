@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Floating-point operations of the VUMAT per update, counted instruction by instruction.
 
-    build/simsand chart increments data/scenes/default.toml -o results/chart
+    build/simsand-chart increments data/scenes/default.toml -o results/chart
     vumat_flops.py results/chart/states.csv
 
 The library is built for 256-bit lanes, which valgrind knows, and called once for the updates of a collapse in blocks of 64; callgrind
@@ -94,7 +94,7 @@ def executed(profile, library):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("states", type=pathlib.Path, help="states.csv of simsand chart increments")
+    parser.add_argument("states", type=pathlib.Path, help="states.csv of simsand-chart increments")
     parser.add_argument("--call", help=argparse.SUPPRESS)  # this program under callgrind: the library to call
     arguments = parser.parse_args()
     if arguments.call:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elastic bodies that fly freely in the plane, and what tells that one has come apart in numbers only.
 #pragma once
-#include "host/geometry.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/stability/stages.hpp"
 #include <cmath>
 #include <functional>

@@ -2,7 +2,7 @@
 // A body in the plane under a pressure on all its free surface, without a membrane: pair forces are of the stress less
 // that pressure, so a body at this pressure is at rest. The stages are the product's.
 #pragma once
-#include "host/geometry.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/stability/stages.hpp"
 #include <cmath>
 

@@ -2,9 +2,9 @@
 // Failures that show while sand flows: noise of stress on the scale of particles, void ratios that leave the spacing,
 // particles thrown off. One coarse column in plane strain, by the product, by the product without its damping, and by
 // a naive scheme.
-#include "drivers/charts/stability.hpp"
-#include "drivers/charts/stress_noise.hpp"
-#include "host/metrics.hpp"
+#include "host/engine/metrics.hpp"
+#include "tests/charts/stability.hpp"
+#include "tests/charts/stress_noise.hpp"
 #include "tests/stability/naive_scheme.hpp"
 #include "tests/verification/scenes.hpp"
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Faults of the material that a point shows and a column suffers from: dilatancy at the trial state, gaps forgotten.
-#include "host/geometry.hpp"
-#include "host/metrics.hpp"
-#include "host/simulation.hpp"
+#include "host/engine/metrics.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/stability/naive_sand.hpp"
 #include "tests/stability/naive_scheme.hpp"
 #include "tests/verification/scenes.hpp"

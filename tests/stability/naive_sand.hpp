@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The counter-case of the material: SIMSAND's equations with one of two faults that look harmless.
 #pragma once
-#include "drivers/charts/elastic.hpp"
+#include "tests/charts/elastic.hpp"
 #include "vumat/abi.hpp"
 
 namespace stability {

@@ -3,7 +3,7 @@
 // Cubic spline, plain sums for the velocity gradient, sigma/rho^2 pair forces, viscosity on the whole velocity
 // difference (Monaghan 1992), no stress diffusion; stress by the host's own stage and material. Plane strain.
 #pragma once
-#include "host/geometry.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/stability/stages.hpp"
 #include <cmath>
 #include <numbers>

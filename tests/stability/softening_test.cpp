@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Softening: dense sand compressed between rough plates under a constant pressure. The strength is the material's; how
 // fast it is lost, once strain gathers in a band, goes with the spacing, as the model has no length of its own.
-#include "host/metrics.hpp"
+#include "host/engine/metrics.hpp"
 #include "tests/stability/confined.hpp"
 #include "tests/stability/naive_scheme.hpp"
 #include "tests/verification/scenes.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What tests need that run the stages of a step one by one.
 #pragma once
-#include "host/simulation.hpp"
+#include "host/engine/simulation.hpp"
 
 namespace stability {
 

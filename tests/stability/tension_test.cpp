@@ -51,7 +51,7 @@ TEST(Tension, NoiseDiesUnderCompressionAndGrowsUnderTension) {
   }
   for (const int k : {0, 1, 2}) EXPECT_LT(grown[k], 0.1);
   EXPECT_GT(grown[3], 1e3)
-      << "a boundary of the method: if it holds now, drivers/charts/STABILITY.md is to be changed";
+      << "a boundary of the method: if it holds now, tests/charts/STABILITY.md is to be changed";
 }
 
 /// The time at which two next neighbours are half as far apart again, s; `until` if they never are.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Coarse columns, their decks, and what a checker should expect of them.
 #pragma once
-#include "drivers/abaqus_deck.hpp"
-#include "drivers/scene_file.hpp"
+#include "drivers/abaqus/deck.hpp"
+#include "drivers/files/scene_file.hpp"
 #include "tests/abaqus/deck_check.hpp"
 #include <cmath>
 #include <filesystem>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The choice to a tolerance and its interval, on tables whose answers are known.
-#include "drivers/accuracy/choice.hpp"
-#include "drivers/accuracy/deposit.hpp"
-#include "drivers/accuracy/tolerance_run.hpp"
-#include "drivers/accuracy/tolerance_scene.hpp"
+#include "drivers/tolerance/choice.hpp"
+#include "drivers/tolerance/deposit.hpp"
+#include "drivers/tolerance/tolerance_run.hpp"
+#include "drivers/tolerance/tolerance_scene.hpp"
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chains on disk: killed, stopped, extended, damaged, mistaken.
 #include "calibration/chain_file.hpp"
-#include "host/hdf5_write.hpp"
+#include "host/files/hdf5_write.hpp"
 #include "tests/unit/sampler_targets.hpp"
 #include <csignal>
 #include <fstream>

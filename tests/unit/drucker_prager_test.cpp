@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Drucker-Prager VUMAT against closed forms, through the interface and the element driver's mixed control.
-#include "drivers/material_point.hpp"
+#include "drivers/element/material_point.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>

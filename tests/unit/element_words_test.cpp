@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Named quantities, cyclic stages, critical state, keys set from outside.
 #include "drivers/element/bounds.hpp"
-#include "drivers/load_path.hpp"
+#include "drivers/element/load_path.hpp"
 #include <gtest/gtest.h>
 
 using namespace drivers;

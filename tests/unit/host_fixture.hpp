@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the tests of the pair loops share: disordered particles, arranged and listed as a step does it.
 #pragma once
-#include "host/geometry.hpp"
-#include "host/simulation.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
 #include <array>
 #include <random>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motion of single particles: free fall, friction, walls that hold, and the account of their work.
-#include "host/geometry.hpp"
-#include "host/integrate.hpp"
+#include "host/engine/integrate.hpp"
+#include "host/scheme/geometry.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>

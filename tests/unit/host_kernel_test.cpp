@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels: a partition of unity in two and three dimensions, its slope, its end.
-#include "host/kernel.hpp"
+#include "host/scheme/kernel.hpp"
 #include <gtest/gtest.h>
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exponential, logarithm, polar decomposition and what is made of them, against closed forms and each other.
-#include "host/kinematics.hpp"
+#include "host/material/kinematics.hpp"
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

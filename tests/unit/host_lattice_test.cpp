@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The column at its start: its mass, its stress, its places.
-#include "host/disc.hpp"
-#include "host/geometry.hpp"
-#include "host/kernel.hpp"
-#include "host/lattice.hpp"
+#include "host/bodies/disc.hpp"
+#include "host/bodies/lattice.hpp"
+#include "host/scheme/geometry.hpp"
+#include "host/scheme/kernel.hpp"
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>

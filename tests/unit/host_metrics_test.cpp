@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outline, height, front and volume of bodies whose shape is known.
-#include "host/geometry.hpp"
-#include "host/lattice.hpp"
-#include "host/metrics.hpp"
+#include "host/bodies/lattice.hpp"
+#include "host/engine/metrics.hpp"
+#include "host/scheme/geometry.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 

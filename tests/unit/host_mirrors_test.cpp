@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images behind axis, floor and gate: where they stand, what they carry, and that a column in equilibrium
 // does not notice that it ends there.
-#include "host/geometry.hpp"
-#include "host/lattice.hpp"
-#include "host/mirrors.hpp"
-#include "host/simulation.hpp"
+#include "host/bodies/lattice.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
+#include "host/walls/mirrors.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <map>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stress stage: what the material is shown, what becomes of its answer, and who is blamed.
-#include "host/corotational.hpp"
-#include "host/geometry.hpp"
-#include "host/rotation.hpp"
-#include "host/stress.hpp"
+#include "host/engine/stress.hpp"
+#include "host/material/corotational.hpp"
+#include "host/scheme/geometry.hpp"
+#include "host/scheme/rotation.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The call of a subroutine: what it is given before, what is found out after, and the routines it may call.
-#include "host/reproducer.hpp"
-#include "host/vumat_block.hpp"
-#include "host/vumat_utilities.hpp"
+#include "host/material/block.hpp"
+#include "host/material/reproducer.hpp"
+#include "host/material/utilities.hpp"
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>

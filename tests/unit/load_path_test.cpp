@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/element/load_path.hpp"
 #include "drivers/element/presets.hpp"
-#include "drivers/load_path.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 

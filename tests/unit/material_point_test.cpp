@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The mixed control and the call, with materials whose answer is known.
-#include "drivers/material_point.hpp"
+#include "drivers/element/material_point.hpp"
 #include <Eigen/Dense>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables of measurements: units, signs, bad rows by line, resampling.
-#include "drivers/csv_table.hpp"
 #include "drivers/element/measured_path.hpp"
+#include "drivers/files/csv_table.hpp"
 #include <fstream>
 #include <gtest/gtest.h>
 

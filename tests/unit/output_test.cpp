@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The result file: what is written is what is read, in the order of creation, also after an exception,
 // a kill and a full disk; errors are one line that names the file.
-#include "host/output.hpp"
-#include "host/result_read.hpp"
+#include "host/files/output.hpp"
+#include "host/files/result_read.hpp"
 #include <H5Cpp.h>
 #include <cmath>
 #include <csignal>

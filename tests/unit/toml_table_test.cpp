@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drivers/toml_table.hpp"
+#include "drivers/files/toml_table.hpp"
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The chart of accuracy, runs to a tolerance and over a posterior, as a user calls them, on coarse columns.
-#include "drivers/csv_table.hpp"
+#include "drivers/files/csv_table.hpp"
 #include "tests/verification/program.hpp"
 #include <algorithm>
 

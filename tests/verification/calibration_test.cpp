@@ -2,8 +2,8 @@
 // Calibration: the simulation against the element driver, recovery of known parameters, what shipped fits promise.
 #include "calibration/coverage.hpp"
 #include "calibration/report.hpp"
-#include "drivers/element.hpp"
-#include "drivers/scene_file.hpp"
+#include "drivers/element/element.hpp"
+#include "drivers/files/scene_file.hpp"
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>

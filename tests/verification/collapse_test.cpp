@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The collapse itself: the default scene's acceptance, energy, refinement, trends, and that neither the
 // number of threads nor a second run changes anything.
-#include "drivers/laws.hpp"
-#include "host/geometry.hpp"
-#include "host/metrics.hpp"
-#include "host/output.hpp"
-#include "host/simulation.hpp"
+#include "drivers/run/laws.hpp"
+#include "host/engine/metrics.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/files/output.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/verification/scenes.hpp"
 #include <H5Cpp.h>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Element tests from text: materials, runs, and what is read from their rows.
 #pragma once
-#include "drivers/element.hpp"
+#include "drivers/element/element.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Path files as a user runs them: the shipped ones, replays of measured and of own output, several at a time,
 // pictures.
-#include "drivers/csv_table.hpp"
 #include "drivers/element/command.hpp"
+#include "drivers/files/csv_table.hpp"
 #include "tests/verification/element_fixture.hpp"
 #include <algorithm>
 #include <cstdlib>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two frames of the SPH host under a homogeneous motion: closed forms, what the audit of a Fortran VUMAT finds,
 // and agreement of both frames.
-#include "drivers/material_file.hpp"
-#include "host/corotational.hpp"
-#include "host/geometry.hpp"
-#include "host/stress.hpp"
+#include "drivers/files/material_file.hpp"
+#include "host/engine/stress.hpp"
+#include "host/material/corotational.hpp"
+#include "host/scheme/geometry.hpp"
 #include <Eigen/Dense>
 #include <cmath>
 #include <fmt/format.h>

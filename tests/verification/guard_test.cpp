@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A step that is too large never goes unseen: the scene file refuses it, and where it comes in otherwise the run ends
 // with particle and time. The counter-case: the same column at the recommended step.
-#include "host/geometry.hpp"
-#include "host/guard.hpp"
-#include "host/simulation.hpp"
+#include "host/engine/guard.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/verification/walls_fixture.hpp"
 #include <H5Cpp.h>
 #include <omp.h>

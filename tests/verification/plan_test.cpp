@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a plan says, against the run; and what `simsand info` says of the result.
-#include "drivers/info.hpp"
-#include "drivers/plan.hpp"
+#include "drivers/run/info.hpp"
+#include "drivers/run/plan.hpp"
 #include "tests/verification/program.hpp"
 #include "tests/verification/scenes.hpp"
 #include <cmath>

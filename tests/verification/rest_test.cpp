@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motions whose answer is known: rest, free fall, rigid rotation, extension to separation and back.
-#include "host/geometry.hpp"
-#include "host/lattice.hpp"
-#include "host/rotation.hpp"
-#include "host/simulation.hpp"
+#include "host/bodies/lattice.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
+#include "host/scheme/rotation.hpp"
 #include "tests/verification/scenes.hpp"
 #include <cmath>
 #include <numbers>

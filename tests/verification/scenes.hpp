@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes for the tests of the host: the shipped materials, written as a user would write them.
 #pragma once
-#include "drivers/run.hpp"
-#include "drivers/scene_file.hpp"
+#include "drivers/files/scene_file.hpp"
+#include "drivers/run/run.hpp"
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>

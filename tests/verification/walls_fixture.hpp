@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes with walls, written as a user would write them, and what is measured on them.
 #pragma once
-#include "host/geometry.hpp"
-#include "host/simulation.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
 #include "tests/verification/scenes.hpp"
 #include <cmath>
 #include <numbers>

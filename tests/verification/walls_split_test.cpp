@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The push of walls taken apart by surfaces adds up to the push of all of them.
-#include "host/wall_forces.hpp"
+#include "host/walls/wall_forces.hpp"
 #include "tests/verification/walls_fixture.hpp"
 
 namespace {

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/engine/guard.hpp"
+#include "host/engine/simulation.hpp"
+#include "host/scheme/geometry.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+
+namespace host {
+namespace {
+
+/// Largest component of the velocity gradient of point k, 1/s; not a number if any of them is none.
+template <class Geometry> double steepest(const BlockGradient<Geometry>& gradient, int k) {
+  double largest = 0;
+  for (const auto& component : gradient.component) {
+    const double slope = std::abs(component[k]);
+    if (std::isnan(slope)) return slope;
+    largest = std::max(largest, slope);
+  }
+  return largest;
+}
+
+template <class Geometry> double square_speed(const Particles<Geometry>& p, int i) {
+  double sum = 0;
+  for (const auto& v : p.velocity) sum += v[i] * v[i];
+  return sum;
+}
+
+/// "particle 7 at (0.1, 0.2) m"
+template <class Geometry> std::string named(const Particles<Geometry>& p, int i) {
+  std::vector<double> place;
+  for (const auto& x : p.position) place.push_back(x[i]);
+  return fmt::format("particle {} at ({:.6g}) m", p.id[i], fmt::join(place, ", "));
+}
+
+constexpr auto advice = "a smaller numerics.step_factor may help";
+
+/// "particle 7 at (0.1, 0.2) m with 3 m/s"
+template <class Geometry> std::string fastest_of(const Particles<Geometry>& p) {
+  int fastest = 0;
+  for (int i = 1; i < p.count; ++i)
+    if (square_speed(p, i) > square_speed(p, fastest)) fastest = i;
+  return fmt::format("{} with {:.3g} m/s", named(p, fastest), std::sqrt(square_speed(p, fastest)));
+}
+
+bool rests(const Wall& wall) {
+  return wall.motion.time.empty();
+}
+
+/// Lowest vertical displacement, m, at the times that a wall's motion lists.
+double deepest_displacement(const WallMotion& motion, int up) {
+  double deepest = 0;
+  for (const double t : motion.time) deepest = std::min(deepest, motion.displacement(t)[up]);
+  return deepest;
+}
+
+/// Height of a wall that sand cannot be below, m; minus infinity if it bounds no height.
+double bottom_of(const Wall& wall, int up) {
+  constexpr double upright = 1 - 1e-12; // a unit normal that points up
+  double bottom = -std::numeric_limits<double>::infinity();
+  if (wall.shape == WallShape::plane && wall.normal[up] > upright) bottom = wall.point[up];
+  if (wall.shape == WallShape::box && wall.inside && wall.lower[up] > -0.5 * unbounded)
+    bottom = wall.lower[up];
+  return bottom + deepest_displacement(wall.motion, up);
+}
+
+} // namespace
+
+template <class Geometry>
+void check_strain(const Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, int count,
+                  double time, double dt) {
+  const double most = largest_strain_step / dt;
+  bool sound = true;
+  for (const auto& component : gradient.component)
+    for (int k = 0; k < count; ++k) sound &= std::abs(component[k]) <= most; // false for what is no number
+  if (sound) return;
+  for (int k = 0; k < count; ++k)
+    if (const double strain = steepest(gradient, k) * dt; !(strain <= largest_strain_step))
+      throw UnsoundMotion(fmt::format("the motion became unstable at time {:.9g} s: {} strains by {:.3g} in "
+                                      "one step of {:.3g} s (at most {} is sound); {}",
+                                      time, named(p, first + k), strain, dt, largest_strain_step, advice));
+}
+
+template <class Geometry>
+void check_energy(const Particles<Geometry>& p, double time, double made, double unclosed) {
+  if (made <= largest_made_energy && std::abs(unclosed) <= largest_unclosed_energy) return;
+  throw std::runtime_error(
+      fmt::format("the energy went wrong at time {:.9g} s: {:.3g} of the initial potential energy was made "
+                  "from nothing (at most "
+                  "{}), {:.3g} of it is unaccounted for (at most {}); the fastest is {}; {}",
+                  time, made, largest_made_energy, unclosed, largest_unclosed_energy, fastest_of(p), advice));
+}
+
+double lowest_level(const Scene& scene) {
+  const int up = scene.geometry == GeometryKind::three_dimensional ? 2 : 1;
+  double level = -std::numeric_limits<double>::infinity();
+  if (scene.floor.present) level = 0;
+  for (const Wall& wall : scene.walls) level = std::max(level, bottom_of(wall, up));
+  return std::isfinite(level) ? level : 0;
+}
+
+template <class Geometry> double energy_scale(const Simulation<Geometry>& s) {
+  double mass = 0;
+  for (int i = 0; i < s.particles.count; ++i) mass += s.particles.mass[i];
+  return s.initial_potential_energy - mass * s.scene.gravity * lowest_level(s.scene);
+}
+
+bool walls_rest(const Scene& scene) {
+  return std::ranges::all_of(scene.walls, rests);
+}
+
+template <class Geometry> double given_by_walls(const Simulation<Geometry>& s) {
+  double given = 0;
+  for (const auto& load : s.loads) given += load.given;
+  return given;
+}
+
+double gift_of_pairs(const Work& work) {
+  return work.stress + work.wall + work.friction;
+}
+
+template <class Geometry> void check_work(const Simulation<Geometry>& s) {
+  const double by_walls = given_by_walls(s), scale = energy_scale(s) + std::max(by_walls, 0.0);
+  const auto check = [&](const std::string& giver, double work, double most) {
+    if (work <= most * scale) return; // false for what is no number
+    throw std::runtime_error(fmt::format(
+        "the energy went wrong at time {:.9g} s: {} gave the sand {:.3g} of the energy that was put in "
+        "(at most {} is sound); the fastest is {}; {}",
+        s.time, giver, work / scale, most, fastest_of(s.particles), advice));
+  };
+  check("artificial viscosity", s.work.viscosity, largest_viscous_gift);
+  for (std::size_t w = 0; w < s.walls.size(); ++w)
+    if (rests(s.walls[w]))
+      check(fmt::format("the wall '{}' at rest", s.walls[w].name), s.loads[w].work, largest_wall_gift);
+  check("the stress of pairs and walls", gift_of_pairs(s.work) - by_walls, largest_pair_gift);
+}
+
+template double given_by_walls(const Simulation<PlaneStrain>&);
+template double given_by_walls(const Simulation<Axisymmetric>&);
+template double given_by_walls(const Simulation<ThreeDimensional>&);
+template double energy_scale(const Simulation<PlaneStrain>&);
+template double energy_scale(const Simulation<Axisymmetric>&);
+template double energy_scale(const Simulation<ThreeDimensional>&);
+template void check_work(const Simulation<PlaneStrain>&);
+template void check_work(const Simulation<Axisymmetric>&);
+template void check_work(const Simulation<ThreeDimensional>&);
+template void check_energy(const Particles<PlaneStrain>&, double, double, double);
+template void check_energy(const Particles<Axisymmetric>&, double, double, double);
+
+template void check_strain(const Particles<PlaneStrain>&, const BlockGradient<PlaneStrain>&, int, int, double,
+                           double);
+template void check_strain(const Particles<Axisymmetric>&, const BlockGradient<Axisymmetric>&, int, int,
+                           double, double);
+template void check_energy(const Particles<ThreeDimensional>&, double, double, double);
+template void check_strain(const Particles<ThreeDimensional>&, const BlockGradient<ThreeDimensional>&, int,
+                           int, double, double);
+
+} // namespace host

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/engine/neighbours.hpp"
+#include "host/scheme/geometry.hpp"
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace host {
+namespace {
+
+/// Interleaves the low 31 bits of two numbers.
+std::uint64_t morton(const std::array<std::uint32_t, 2>& cell) {
+  const auto spread = [](std::uint64_t v) {
+    v = (v | (v << 16)) & 0x0000ffff0000ffffULL;
+    v = (v | (v << 8)) & 0x00ff00ff00ff00ffULL;
+    v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0fULL;
+    v = (v | (v << 2)) & 0x3333333333333333ULL;
+    return (v | (v << 1)) & 0x5555555555555555ULL;
+  };
+  return spread(cell[0]) | (spread(cell[1]) << 1);
+}
+
+/// Square cells over all records, records of a cell contiguous in `sorted`.
+template <int D> struct CellGrid {
+  std::array<double, D> lower;
+  std::array<int, D> cells;
+  double size;
+  std::vector<int> start, sorted;
+
+  std::array<int, D> cell_of(const double* x) const {
+    std::array<int, D> c;
+    for (int a = 0; a < D; ++a) c[a] = std::clamp(int((x[a] - lower[a]) / size), 0, cells[a] - 1);
+    return c;
+  }
+  int index(const std::array<int, D>& c) const {
+    int i = c[D - 1];
+    for (int a = D - 2; a >= 0; --a) i = i * cells[a] + c[a];
+    return i;
+  }
+};
+
+constexpr int largest_grid = 1 << 22;
+
+/// The row of cells after that of `cell` in the box `from` to `to`; the last coordinate counts the box out.
+void next_row(std::array<int, 2>& cell, const std::array<int, 2>&, const std::array<int, 2>&) {
+  ++cell[1];
+}
+void next_row(std::array<int, 3>& cell, const std::array<int, 3>& from, const std::array<int, 3>& to) {
+  if (++cell[1] <= to[1]) return;
+  cell[1] = from[1];
+  ++cell[2];
+}
+
+template <class Geometry>
+CellGrid<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, const Images& images,
+                                              const Records<Geometry>& records, double size) {
+  constexpr int D = Geometry::dimension;
+  CellGrid<D> grid;
+  std::vector<int> all(p.count + images.list.size());
+  std::iota(all.begin(), all.begin() + p.count, 0);
+  std::iota(all.begin() + p.count, all.end(), images.first);
+  std::array<double, D> upper;
+  grid.lower.fill(nowhere);
+  upper.fill(-nowhere);
+  for (int j : all)
+    for (int a = 0; a < D; ++a) {
+      grid.lower[a] = std::min(grid.lower[a], records.motion[j].position[a]);
+      upper[a] = std::max(upper[a], records.motion[j].position[a]);
+    }
+  double cells = 0;
+  for (grid.size = size;; grid.size *= 2) { // a few stray particles far away must not cost memory
+    cells = 1;
+    for (int a = 0; a < D; ++a) cells *= std::floor((upper[a] - grid.lower[a]) / grid.size) + 1;
+    if (cells <= largest_grid) break;
+  }
+  for (int a = 0; a < D; ++a) grid.cells[a] = int((upper[a] - grid.lower[a]) / grid.size) + 1;
+
+  std::vector<int> cell(all.size());
+  grid.start.assign(std::size_t(cells) + 1, 0);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    cell[k] = grid.index(grid.cell_of(records.motion[all[k]].position));
+    ++grid.start[cell[k] + 1];
+  }
+  std::partial_sum(grid.start.begin(), grid.start.end(), grid.start.begin());
+  grid.sorted.resize(all.size());
+  std::vector<int> next(grid.start.begin(), grid.start.end() - 1);
+  for (std::size_t k = 0; k < all.size(); ++k) grid.sorted[next[cell[k]]++] = all[k];
+  return grid;
+}
+
+} // namespace
+
+namespace {
+
+/// Particles by their place on a Morton curve of square cells. Ties by creation order, so that the result
+/// depends on nothing but the positions.
+std::vector<int> spatial_order(const std::array<Array, 2>& position, const std::vector<int>& id, int count,
+                               double cell) {
+  constexpr double most = double((1u << 31) - 1);
+  std::array<double, 2> lower;
+  for (int a = 0; a < 2; ++a) lower[a] = *std::min_element(position[a].begin(), position[a].begin() + count);
+  std::vector<std::pair<std::uint64_t, int>> order(count);
+  for (int i = 0; i < count; ++i) {
+    std::array<std::uint32_t, 2> c;
+    for (int a = 0; a < 2; ++a) c[a] = std::uint32_t(std::min((position[a][i] - lower[a]) / cell, most));
+    order[i] = {morton(c), i};
+  }
+  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : id[a.second] < id[b.second];
+  });
+  std::vector<int> sorted(count);
+  for (int i = 0; i < count; ++i) sorted[i] = order[i].second;
+  return sorted;
+}
+
+/// Halves the particles again and again across the longest side of their box, down to clusters of eight: boxes
+/// around clusters are smaller by a tenth than with a Morton curve, and so are the lists. Ties by creation order.
+void bisect(const std::array<Array, 3>& position, const std::vector<int>& id, int* begin, int* end) {
+  if (end - begin <= lanes) return std::sort(begin, end, [&](int i, int j) { return id[i] < id[j]; });
+  int along = 0;
+  double longest = -1;
+  for (int a = 0; a < 3; ++a) {
+    const auto [low, high] =
+        std::minmax_element(begin, end, [&](int i, int j) { return position[a][i] < position[a][j]; });
+    const double side = position[a][*high] - position[a][*low];
+    if (side > longest) {
+      longest = side;
+      along = a;
+    }
+  }
+  const auto& x = position[along];
+  int* middle = begin + ((end - begin) / 2 + lanes - 1) / lanes * lanes;
+  std::nth_element(begin, middle, end,
+                   [&](int i, int j) { return x[i] != x[j] ? x[i] < x[j] : id[i] < id[j]; });
+  bisect(position, id, begin, middle);
+  bisect(position, id, middle, end);
+}
+
+std::vector<int> spatial_order(const std::array<Array, 3>& position, const std::vector<int>& id, int count,
+                               double) {
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  bisect(position, id, order.data(), order.data() + count);
+  return order;
+}
+
+} // namespace
+
+template <class Geometry> void sort_particles(Particles<Geometry>& p, double cell) {
+  const auto order = spatial_order(p.position, p.id, p.count, cell);
+  const auto permute = [&](auto& array) {
+    auto old = array;
+    for (int i = 0; i < p.count; ++i) array[i] = old[order[i]];
+  };
+  permute(p.id);
+  p.each_persistent(permute);
+}
+
+/// Of the eight particles of a cluster from one record, m2.
+template <std::size_t D> static Lane distance_square(const std::array<Lane, D>& x, const double (&y)[D]) {
+  Lane square{};
+  for (std::size_t a = 0; a < D; ++a) square += (x[a] - y[a]) * (x[a] - y[a]);
+  return square;
+}
+
+template <class Geometry>
+void find_neighbours(const Particles<Geometry>& p, const Images& images, const Records<Geometry>& records,
+                     double reach, NeighbourLists& lists) {
+  constexpr int D = Geometry::dimension;
+  const auto grid = sort_into_cells(p, images, records, reach);
+  lists.interior.resize(p.clusters());
+  lists.total.resize(p.clusters());
+  for (bool fits = false; !fits;) {
+    lists.entries.resize(std::size_t(p.clusters()) * lists.capacity);
+    int longest = 0;
+#pragma omp parallel for schedule(static) reduction(max : longest)
+    for (int c = 0; c < p.clusters(); ++c) {
+      const int first = c * lanes, used = std::min(lanes, p.count - first);
+      std::array<Lane, D> x;
+      std::array<int, D> from, to;
+      for (int a = 0; a < D; ++a) x[a] = load(&p.position[a][first]);
+      double lower[D], upper[D];
+      for (int a = 0; a < D; ++a) {
+        lower[a] = *std::min_element(&p.position[a][first], &p.position[a][first] + used) - reach;
+        upper[a] = *std::max_element(&p.position[a][first], &p.position[a][first] + used) + reach;
+      }
+      from = grid.cell_of(lower);
+      to = grid.cell_of(upper);
+      int* out = lists.entries.data() + std::size_t(c) * lists.capacity;
+      for (const bool wall : {false, true}) {
+        int n = wall ? lists.interior[c] : 0;
+        for (auto cell = from; cell[D - 1] <= to[D - 1]; next_row(cell, from, to))
+          for (cell[0] = from[0]; cell[0] <= to[0]; ++cell[0])
+            for (int k = grid.start[grid.index(cell)]; k < grid.start[grid.index(cell) + 1]; ++k) {
+              const int j = grid.sorted[k];
+              if ((j >= images.first_wall) != wall) continue;
+              if (n < lists.capacity) out[n] = j;
+              n += any_within(distance_square(x, records.motion[j].position), reach * reach);
+            }
+        (wall ? lists.total : lists.interior)[c] = n;
+        longest = std::max(longest, n);
+      }
+    }
+    fits = longest <= lists.capacity;
+    if (!fits) lists.capacity = longest + longest / 16;
+  }
+}
+
+template <class Geometry>
+void prune(const Particles<Geometry>& p, const Records<Geometry>& records, double reach,
+           const NeighbourLists& outer, NeighbourLists& lists) {
+  constexpr int D = Geometry::dimension;
+  lists.capacity = outer.capacity;
+  lists.entries.resize(outer.entries.size());
+  lists.interior.resize(p.clusters());
+  lists.total.resize(p.clusters());
+#pragma omp parallel for schedule(static)
+  for (int c = 0; c < p.clusters(); ++c) {
+    std::array<Lane, D> x;
+    for (int a = 0; a < D; ++a) x[a] = load(&p.position[a][c * lanes]);
+    const int *next = outer.begin(c), *middle = next + outer.interior[c], *end = next + outer.total[c];
+    int *const begin = lists.entries.data() + std::size_t(c) * lists.capacity, *out = begin;
+    const auto keep_until = [&](const int* stop) {
+      for (; next < stop; ++next) {
+        *out = *next;
+        out += any_within(distance_square(x, records.motion[*next].position), reach * reach);
+      }
+      return int(out - begin);
+    };
+    lists.interior[c] = keep_until(middle);
+    lists.total[c] = keep_until(end);
+  }
+}
+
+template void sort_particles(Particles<PlaneStrain>&, double);
+template void sort_particles(Particles<Axisymmetric>&, double);
+template void sort_particles(Particles<ThreeDimensional>&, double);
+template void find_neighbours(const Particles<PlaneStrain>&, const Images&, const Records<PlaneStrain>&,
+                              double, NeighbourLists&);
+template void find_neighbours(const Particles<Axisymmetric>&, const Images&, const Records<Axisymmetric>&,
+                              double, NeighbourLists&);
+template void find_neighbours(const Particles<ThreeDimensional>&, const Images&,
+                              const Records<ThreeDimensional>&, double, NeighbourLists&);
+template void prune(const Particles<PlaneStrain>&, const Records<PlaneStrain>&, double, const NeighbourLists&,
+                    NeighbourLists&);
+template void prune(const Particles<Axisymmetric>&, const Records<Axisymmetric>&, double,
+                    const NeighbourLists&, NeighbourLists&);
+template void prune(const Particles<ThreeDimensional>&, const Records<ThreeDimensional>&, double,
+                    const NeighbourLists&, NeighbourLists&);
+
+} // namespace host

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/engine/passes.hpp"
+#include "host/engine/gradient.hpp"
+#include "host/engine/guard.hpp"
+#include "host/engine/material_calls.hpp"
+#include <algorithm>
+
+namespace host {
+namespace {
+
+/// Velocity gradients of the `count` particles first, first + 1, ...
+template <class Geometry>
+void find_gradients(const Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
+                    const NeighbourLists& lists, const Records<Geometry>& records, int first, int count,
+                    BlockGradient<Geometry>& gradient) {
+  constexpr int parts = Geometry::dimension * Geometry::dimension;
+  for (int k = 0; k < count; k += lanes) {
+    Lane slope[parts];
+    find_gradient(p, kernel, lists, records, (first + k) / lanes, slope);
+    for (int e = 0; e < parts; ++e) store(&gradient.component[e][k], slope[e]);
+  }
+}
+
+/// Largest component of the gradients, 1/s; what is no number is left out.
+template <class Geometry>
+double show_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, int count,
+                  const Numerics& numerics, double h, Records<Geometry>& records) {
+  ClusterGradient<Geometry> slope;
+  Lane steepest{};
+  for (int k = 0; k < count; k += lanes) {
+    for (std::size_t e = 0; e < slope.size(); ++e) {
+      slope[e] = load(&gradient.component[e][k]);
+      steepest = larger(larger(slope[e], -slope[e]), steepest);
+    }
+    show_stress_of(p, first + k, std::min(lanes, count - k), slope, numerics, h, records);
+  }
+  return largest(steepest);
+}
+
+} // namespace
+
+template <class Geometry>
+double deform(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel, const NeighbourLists& lists,
+              const Scene& scene, const Increment& increment, StressBlocks& blocks,
+              Records<Geometry>& records) {
+  const double start = increment.total_time - increment.dt;
+  Failure failure;
+  for_each_block(p, scene.material, blocks, [&](int first, VumatBlock& b) {
+    BlockGradient<Geometry> gradient;
+    find_gradients(p, kernel, lists, records, first, b.points, gradient);
+    check_strain(p, gradient, first, b.points, start, increment.dt);
+    advance_stress(p, scene.material, increment, blocks, gradient, first, b, failure);
+    blocks.steepest[first / StressBlocks::points] =
+        show_block(p, gradient, first, b.points, scene.numerics, kernel.h, records);
+  });
+  if (failure.bad) report_failure(p, scene.material, failure, blocks.failure_state);
+  return std::ranges::max(blocks.steepest);
+}
+
+template <class Geometry>
+ClusterMotion move(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
+                   const NeighbourLists& lists, const Scene& scene, const std::vector<Mirror>& mirrors,
+                   double dt_before, double dt, const Records<Geometry>& records,
+                   std::vector<ClusterMotion>& motions) {
+  constexpr int together = StressBlocks::points / lanes; // as in `deform`: what a thread has at hand
+  const int blocks = (p.clusters() + together - 1) / together;
+  motions.assign(blocks, {});
+#pragma omp parallel for schedule(static)
+  for (int b = 0; b < blocks; ++b)
+    for (int c = b * together; c < std::min((b + 1) * together, p.clusters()); ++c) {
+      const auto forces = forces_on(p, kernel, lists, records, scene, c);
+      motions[b].add(move_cluster(p, scene, mirrors, kernel.support, dt_before, dt, forces, c));
+      for (std::size_t s = 0; s < p.stress.size(); ++s) {
+        double* stress = &p.stress[s][c * lanes];
+        store(stress, load(stress) + dt * forces.diffusion[s], std::min(lanes, p.count - c * lanes));
+      }
+    }
+  ClusterMotion all;
+  for (const ClusterMotion& motion : motions) all.add(motion);
+  return all;
+}
+
+template double deform(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
+                       const Increment&, StressBlocks&, Records<PlaneStrain>&);
+template ClusterMotion move(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
+                            const std::vector<Mirror>&, double, double, const Records<PlaneStrain>&,
+                            std::vector<ClusterMotion>&);
+template double deform(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
+                       const Increment&, StressBlocks&, Records<Axisymmetric>&);
+template ClusterMotion move(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
+                            const std::vector<Mirror>&, double, double, const Records<Axisymmetric>&,
+                            std::vector<ClusterMotion>&);
+template double deform(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&, const Scene&,
+                       const Increment&, StressBlocks&, Records<ThreeDimensional>&);
+template ClusterMotion move(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&,
+                            const Scene&, const std::vector<Mirror>&, double, double,
+                            const Records<ThreeDimensional>&, std::vector<ClusterMotion>&);
+
+} // namespace host

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host/material/library.hpp"
+#include <dlfcn.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace host {
+
+VumatLibrary load_vumat(const std::string& path) {
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) throw std::runtime_error(fmt::format("material library {}: {}", path, dlerror()));
+  VumatLibrary library{path, {handle, dlclose}, nullptr};
+  library.call = reinterpret_cast<vumat::Subroutine<double>*>(dlsym(handle, "vumat_"));
+  if (!library.call) throw std::runtime_error(fmt::format("material library {}: exports no vumat_", path));
+  return library;
+}
+
+std::string beside_program(const std::string& name) {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / name).string();
+}
+
+} // namespace host
