@@ -16,10 +16,12 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != text.npos;
 }
 
+const std::string chart_program = SIMSAND_BINARY_DIR "/simsand-chart";
+
 /// A folder with the quick chart, and a data folder that holds its table.
 const Program& chart() {
   static const Program program("accuracy_chart");
-  static const auto outcome = program.run("chart accuracy --quick -o chart -j 2");
+  static const auto outcome = program.shell(chart_program + " accuracy --quick -o chart -j 2");
   static const bool done = [] {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "14 runs, 14 of them to do")) << outcome.err;
@@ -45,7 +47,7 @@ TEST(AccuracyChart, WritesItsTablesAndPicturesAndResumes) {
   EXPECT_EQ(points.rows(), 5u);
   for (const char* picture : {"finest", "dem", "scatter"})
     EXPECT_GT(fs::file_size(program.folder / fmt::format("chart/accuracy_{}.png", picture)), 10000u);
-  const auto again = program.run("chart accuracy --quick -o chart");
+  const auto again = program.shell(chart_program + " accuracy --quick -o chart");
   EXPECT_TRUE(has(again.err, "14 runs, 0 of them to do")) << again.err;
 }
 

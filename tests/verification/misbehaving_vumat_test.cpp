@@ -184,7 +184,7 @@ TEST(Misbehaving, LeavesAReproducerBesideEachTable) {
 TEST(Misbehaving, IsLoadedByTheChartsToo) {
   // Its xplb_exit is found; the chart then refuses a material that is not SIMSAND.
   run_scene(breaking(0));
-  expect_stopped(simsand("chart increments scene.toml -o chart"),
+  expect_stopped(simsand("increments scene.toml -o chart", "simsand-chart"),
                  {"the increments of SIMSAND alone can be charted"});
 }
 

@@ -32,10 +32,10 @@ inline std::filesystem::path folder() {
   return path;
 }
 
-inline Outcome simsand(const std::string& arguments) {
+inline Outcome simsand(const std::string& arguments, const std::string& program = "simsand") {
   const auto at = folder();
-  const int status = std::system(fmt::format("cd '{}' && exec timeout 100 '{}/simsand' {} >out 2>err",
-                                             at.string(), SIMSAND_BINARY_DIR, arguments)
+  const int status = std::system(fmt::format("cd '{}' && exec timeout 100 '{}/{}' {} >out 2>err", at.string(),
+                                             SIMSAND_BINARY_DIR, program, arguments)
                                      .c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(at / "out"), content(at / "err")};
 }

@@ -45,7 +45,7 @@ fs::path folder() {
 
 Outcome chart(const std::string& words) {
   const auto at = folder();
-  const auto command = fmt::format("cd '{}' && exec timeout 200 '{}/simsand' chart {} >out 2>err",
+  const auto command = fmt::format("cd '{}' && exec timeout 200 '{}/simsand-chart' {} >out 2>err",
                                    at.string(), SIMSAND_BINARY_DIR, words);
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(at / "out"), content(at / "err")};
