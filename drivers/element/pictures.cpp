@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/element/pictures.hpp"
+#include "drivers/run/process.hpp"
 #include <filesystem>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <stdexcept>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace drivers {
 namespace {
-
-/// Runs a program with arguments and waits; its exit status, 127 if it cannot be started.
-int run_program(Words arguments) {
-  std::vector<char*> argv;
-  for (auto& a : arguments) argv.push_back(a.data());
-  argv.push_back(nullptr);
-  pid_t child = 0;
-  int status = 0;
-  if (posix_spawnp(&child, argv.front(), nullptr, nullptr, argv.data(), environ) != 0) return 127;
-  if (waitpid(child, &status, 0) != child || !WIFEXITED(status)) return 127;
-  return WEXITSTATUS(status);
-}
 
 Words critical_numbers(const std::optional<CriticalState>& critical) {
   if (!critical) return {"nan", "nan", "nan", "nan", "nan", "nan"};
@@ -37,10 +23,7 @@ void run_script(const std::string& name, const Words& arguments, const std::stri
   const auto script = host::beside_program(name);
   if (!std::filesystem::exists(script))
     throw std::runtime_error(fmt::format("{}: no such script: figures cannot be drawn", script));
-  // Debian's Python is the one that has Debian's matplotlib.
-  Words all{std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3", script};
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  if (const int status = run_program(all); status != 0)
+  if (const int status = run_python(script, arguments); status != 0)
     throw std::runtime_error(
         fmt::format("{}: figures were not drawn: {} ended with status {}", folder, script, status));
 }

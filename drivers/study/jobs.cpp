@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/jobs.hpp"
+#include "drivers/run/process.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -13,36 +13,15 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace drivers {
 namespace {
 
-/// In the new process: never returns.
-[[noreturn]] void become(std::vector<char*>& arguments, const std::string& log) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  if (file >= 0) {
-    dup2(file, STDOUT_FILENO);
-    dup2(file, STDERR_FILENO);
-  }
-  execv(arguments.front(), arguments.data());
-  _exit(127);
-}
-
 pid_t start(const Job& job) {
   std::filesystem::create_directories(std::filesystem::path(job.log).parent_path());
-  std::vector<char*> arguments;
-  for (const auto& word : job.command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  const pid_t process = fork();
-  if (process < 0)
-    throw std::runtime_error(fmt::format("{}: cannot start a process: {}", job.name, std::strerror(errno)));
-  if (process == 0) become(arguments, job.log);
-  return process;
+  return start_program({job.command, job.log, true});
 }
 
 double cpu_seconds(const rusage& usage) {

@@ -2,13 +2,13 @@
 #include "drivers/study/runs.hpp"
 #include "drivers/files/scene_file.hpp"
 #include "drivers/run/build_hash.hpp"
+#include "drivers/run/process.hpp"
 #include "drivers/run/resume.hpp"
 #include "drivers/study/jobs.hpp"
 #include "host/files/output.hpp"
 #include "host/files/result_read.hpp"
 #include "host/material/library.hpp"
 #include <cmath>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
@@ -131,11 +131,10 @@ void run_missing(std::vector<StudyRun> runs, const StudyOptions& options) {
 
 void report_study(const std::string& script, const StudyOptions& options) {
   const auto file = fs::path(options.data).parent_path() / "drivers/figures" / script;
-  const auto command =
-      fmt::format("/usr/bin/python3 '{}' '{}' --data '{}'", file.string(), options.folder, options.data);
-  if (std::system(command.c_str()) != 0)
-    throw std::runtime_error(
-        fmt::format("the runs are complete, but their report failed; to repeat it: {}", command));
+  const Words arguments{options.folder, "--data", options.data};
+  if (run_python(file.string(), arguments) != 0)
+    throw std::runtime_error(fmt::format("the runs are complete, but their report failed; to repeat it: {}",
+                                         shell_text(python_command(file.string(), arguments))));
 }
 
 void run_and_report(std::vector<StudyRun> runs, const std::string& script, const StudyOptions& options) {

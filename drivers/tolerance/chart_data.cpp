@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/tolerance/chart_data.hpp"
+#include "drivers/files/csv_write.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 
@@ -192,26 +192,26 @@ ChartPoint ChartData::point_of(const Configuration& configuration) const {
 }
 
 void write_points(const std::filesystem::path& file, const ChartData& data) {
-  std::ofstream out(file);
-  out << "geometry,material,precision,stiffness_scale,step_factor,kernel,smoothing_length,resolution,columns,"
-         "runs,"
-         "failures,"
-         "particle_steps,seconds,height_error,radius_error,height_typical,radius_typical,height_mean,radius_"
-         "mean,height_scatter,radius_"
-         "scatter,"
-         "outline_error,dem_height_error,dem_radius_error,dem_outline_error\n";
+  CsvWriter table(
+      "geometry,material,precision,stiffness_scale,step_factor,kernel,smoothing_length,resolution,columns,"
+      "runs,"
+      "failures,particle_steps,seconds,height_error,radius_error,height_typical,radius_typical,height_mean,"
+      "radius_mean,height_scatter,radius_scatter,outline_error,dem_height_error,dem_radius_error,"
+      "dem_outline_error");
   for (const auto& p : data.points()) {
     const auto& c = p.configuration;
-    out << fmt::format("{},{},{},{:g},{:g},{},{:g},{:g},{},{},{}", c.geometry, c.material, c.precision,
-                       c.stiffness_scale, c.step_factor, c.kernel, c.smoothing_length, c.resolution,
-                       p.columns, p.runs, p.failures);
+    for (const auto& choice : {c.geometry, c.material, c.precision}) table.cell(choice);
+    for (const double choice : {c.stiffness_scale, c.step_factor}) table.cell(Rounded{choice});
+    table.cell(c.kernel);
+    for (const double choice : {c.smoothing_length, c.resolution}) table.cell(Rounded{choice});
+    for (const int count : {p.columns, p.runs, p.failures}) table.cell(count);
     for (const double value : {p.particle_steps, p.seconds, p.error.height, p.error.radius, p.typical.height,
                                p.typical.radius, p.mean.height, p.mean.radius, p.scatter.height,
                                p.scatter.radius, p.outline_error, p.dem.height, p.dem.radius, p.dem_outline})
-      out << (std::isfinite(value) ? fmt::format(",{:.4g}", value) : ",");
-    out << '\n';
+      table.cell(Rounded{value, 4});
+    table.end_row();
   }
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  table.write(file);
 }
 
 } // namespace drivers

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/tolerance/chart_table.hpp"
 #include "drivers/files/csv_table.hpp"
-#include <cmath>
-#include <fmt/format.h>
-#include <fstream>
-#include <stdexcept>
+#include "drivers/files/csv_write.hpp"
 
 namespace drivers {
 namespace {
 
 constexpr auto header =
-    "column,geometry,material,precision,stiffness_scale,step_factor,kernel,smoothing_length,"
-    "resolution,repeat,failed,"
-    "particles,steps,seconds,height,radius,rest_s,outline_error,dem_height_error,dem_"
-    "radius_error,dem_outline_error";
-
-std::string shown(double value, int digits = 6) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "";
-}
+    "column,geometry,material,precision,stiffness_scale,step_factor,kernel,smoothing_length,resolution,"
+    "repeat,"
+    "failed,particles,steps,seconds,height,radius,rest_s,outline_error,dem_height_error,dem_radius_error,"
+    "dem_outline_error";
 
 /// Calls `f(name, number)` for the numbers of a row that may be unknown.
 template <class Row, class F> void each_number(Row& row, F&& f) {
@@ -59,19 +52,22 @@ std::vector<ChartRow> read_chart_table(const std::filesystem::path& file) {
 }
 
 void write_chart_table(const std::filesystem::path& file, const std::vector<ChartRow>& rows) {
-  std::ofstream out(file);
-  out << header << '\n';
+  CsvWriter table(header);
   for (const auto& row : rows) {
     const auto& c = row.configuration;
-    out << fmt::format("{},{},{},{},{:g},{:g},{},{:g},{:g},{},{:d}", row.column, c.geometry, c.material,
-                       c.precision, c.stiffness_scale, c.step_factor, c.kernel, c.smoothing_length,
-                       c.resolution, row.repeat, row.failed);
-    each_number(row, [&](const char* name, double value) {
-      out << ',' << shown(value, name == std::string("steps") || name == std::string("particles") ? 9 : 5);
+    table.cell(row.column);
+    for (const auto& choice : {c.geometry, c.material, c.precision}) table.cell(choice);
+    for (const double choice : {c.stiffness_scale, c.step_factor}) table.cell(Rounded{choice});
+    table.cell(c.kernel);
+    for (const double choice : {c.smoothing_length, c.resolution}) table.cell(Rounded{choice});
+    table.cell(row.repeat);
+    table.cell(row.failed);
+    each_number(row, [&](std::string_view name, double value) {
+      table.cell(Rounded{value, name == "steps" || name == "particles" ? 9 : 5});
     });
-    out << '\n';
+    table.end_row();
   }
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  table.write(file);
 }
 
 } // namespace drivers

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/tolerance/tolerance_run.hpp"
+#include "drivers/files/csv_write.hpp"
 #include "drivers/files/scene_file.hpp"
 #include "drivers/study/runs.hpp"
 #include "drivers/tolerance/deposit.hpp"
@@ -83,14 +84,13 @@ std::vector<Estimate> estimates(const fs::path& folder, const ChartPoint& point,
 
 void write_estimates(const fs::path& file, const std::vector<Estimate>& all, const Words& why,
                      double tolerance) {
-  std::string text;
-  for (const auto& line : why) text += "# " + line + "\n";
-  text += fmt::format("# tolerance: {:g}\n", tolerance);
-  text += "quantity,value,lower,upper,half_width,companion,chart_error\n";
+  Words comments = why;
+  comments.push_back(fmt::format("tolerance: {:g}", tolerance));
+  CsvWriter table("quantity,value,lower,upper,half_width,companion,chart_error", comments);
   for (const auto& e : all)
-    text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.4g},{:.6g},{:.4g}\n", e.quantity, e.value, e.lower(),
-                        e.upper(), e.half_width, e.companion, e.chart_error);
-  host::write_whole(file, text);
+    table.row(e.quantity, Rounded{e.value}, Rounded{e.lower()}, Rounded{e.upper()}, Rounded{e.half_width, 4},
+              Rounded{e.companion}, Rounded{e.chart_error, 4});
+  table.write(file);
 }
 
 void print_estimates(const std::vector<Estimate>& all, const Interval& interval, double tolerance,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/files/csv_write.hpp"
 #include "tests/charts/cycles.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace charts {
 namespace {
@@ -103,11 +103,13 @@ int print_random(const std::vector<Judged>& all) {
   return violations;
 }
 
-void write(const std::vector<Judged>& all, std::ofstream& out) {
-  for (const auto& j : all)
-    out << fmt::format("{:g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", j.amplitude,
-                       j.energy.work, j.energy.gross, j.energy.dissipation, j.energy.stored, j.energy.defect,
-                       j.energy.plastic_strain, j.given, j.refined);
+void add_rows(const std::vector<Judged>& all, drivers::CsvWriter& table) {
+  for (const auto& j : all) {
+    for (const double value : {j.amplitude, j.energy.work, j.energy.gross, j.energy.dissipation,
+                               j.energy.stored, j.energy.defect, j.energy.plastic_strain, j.given, j.refined})
+      table.cell(drivers::Rounded{value});
+    table.end_row();
+  }
 }
 
 } // namespace
@@ -118,19 +120,16 @@ bool chart_cycles(const CycleOptions& options) {
   fmt::print("{:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "amplitude", "cycles",
              "plastic", "W < dpsi", "by most", "delta 50%", "largest", "unexpl.", "beyond d.", "refined",
              "violated");
-  std::ofstream out;
-  if (!options.output.empty()) {
-    out.open(options.output);
-    if (!out) throw std::runtime_error(options.output + ": cannot be written");
-    out << "amplitude,work_Pa,gross_work_Pa,dissipation_Pa,stored_Pa,defect_Pa,plastic_strain,"
-           "given_beyond_defect,given_beyond_defect_refined\n";
-  }
+  drivers::CsvWriter table(
+      "amplitude,work_Pa,gross_work_Pa,dissipation_Pa,stored_Pa,defect_Pa,plastic_strain,"
+      "given_beyond_defect,given_beyond_defect_refined");
   int violations = 0;
   for (const double amplitude : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     const auto all = judge(options, amplitude);
     violations += print_random(all);
-    if (out.is_open()) write(all, out);
+    add_rows(all, table);
   }
+  if (!options.output.empty()) table.write(options.output);
   return violations == 0;
 }
 

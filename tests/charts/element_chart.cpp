@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/charts/element_chart.hpp"
 #include "drivers/element/pictures.hpp"
+#include "drivers/files/csv_write.hpp"
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <stdexcept>
 
 namespace charts {
 namespace {
 
-std::string quoted(const std::string& text) {
-  return text.find(',') == std::string::npos ? text : '"' + text + '"';
-}
-
 void write_rows(const std::vector<Row>& rows, const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out << element_header << '\n';
+  using drivers::Rounded;
+  drivers::CsvWriter table(element_header);
   for (const auto& r : rows)
-    out << fmt::format("{},{},{:g},{},{},{},{},{:.4g},{:.4g},{:.4g},{},{},{},{},{:.4g}\n", quoted(r.method),
-                       r.setting, r.increment, r.group, quoted(r.member), r.cases, r.updates, r.error_median,
-                       r.error_95, r.error_largest, r.over_a_tenth, r.not_finite, r.not_converged, r.drifted,
-                       r.nanoseconds);
-  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+    table.row(r.method, r.setting, Rounded{r.increment}, r.group, r.member, r.cases, r.updates,
+              Rounded{r.error_median, 4}, Rounded{r.error_95, 4}, Rounded{r.error_largest, 4}, r.over_a_tenth,
+              r.not_finite, r.not_converged, r.drifted, Rounded{r.nanoseconds, 4});
+  table.write(file);
 }
 
 void print_rows(const std::vector<Row>& rows) {

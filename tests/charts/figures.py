@@ -38,7 +38,7 @@ def rows_of(file):
     for row in rows:
         for key, value in row.items():
             if key not in ("integrator", "setting", "group", "member", "phase"):
-                row[key] = float(value)
+                row[key] = float(value or "nan")
     return rows
 
 

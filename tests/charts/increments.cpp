@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/charts/increments.hpp"
+#include "drivers/files/csv_write.hpp"
 #include "drivers/files/scene_file.hpp"
 #include "host/engine/metrics.hpp"
 #include "host/engine/simulation.hpp"
@@ -97,27 +98,28 @@ template <class Geometry> void run(const host::Scene& scene) {
 }
 
 void write_counts(const IncrementRecord& record, const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out << increments_header << '\n';
+  drivers::CsvWriter table(increments_header);
   const auto edge = [](int step, double least, double per_decade) {
-    return step < 0 ? 0. : least * std::pow(10, step / per_decade);
+    return drivers::Rounded{step < 0 ? 0. : least * std::pow(10, step / per_decade), 4};
   };
   for (const auto& [at, n] : record.counts)
-    out << fmt::format(
-        "{},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{},{}\n", at.phase ? "coming to rest" : "collapse",
-        edge(at.strain - 1, least_strain, strain_classes_per_decade),
-        edge(at.strain, least_strain, strain_classes_per_decade),
-        edge(at.pressure - 1, least_pressure, pressure_classes_per_decade),
-        edge(at.pressure, least_pressure, pressure_classes_per_decade), n[0], n[1], n[2], n[3]);
+    table.row(at.phase ? "coming to rest" : "collapse",
+              edge(at.strain - 1, least_strain, strain_classes_per_decade),
+              edge(at.strain, least_strain, strain_classes_per_decade),
+              edge(at.pressure - 1, least_pressure, pressure_classes_per_decade),
+              edge(at.pressure, least_pressure, pressure_classes_per_decade), n);
+  table.write(file);
 }
 
 void write_states(const IncrementRecord& record, const host::Scene& scene,
                   const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out << "# properties";
-  for (const double value : scene.material.properties) out << fmt::format(" {:.17g}", value);
-  out << '\n' << states_header << '\n';
-  for (const auto& [hash, update] : record.kept) out << fmt::format("{:.17g}\n", fmt::join(update, ","));
+  drivers::CsvWriter table(states_header,
+                           {fmt::format("properties {:.17g}", fmt::join(scene.material.properties, " "))});
+  for (const auto& [hash, update] : record.kept) {
+    for (const double value : update) table.cell(drivers::Rounded{value, 17});
+    table.end_row();
+  }
+  table.write(file);
 }
 
 /// Upper edge of the class of strain below which this share of the updates lies; of one phase, of some answers.
