@@ -3,6 +3,7 @@
 #pragma once
 #include "host/material/block.hpp"
 #include "host/scheme/kernel.hpp"
+#include "host/scheme/medium.hpp"
 #include "host/walls/wall.hpp"
 #include <limits>
 #include <optional>
@@ -98,5 +99,18 @@ struct Scene {
   std::string output_folder;
   std::string resolved; ///< the scene file with every key written out
 };
+
+/// What the terms of the scheme need of a scene.
+inline Medium medium_of(const Scene& scene) {
+  const Numerics& n = scene.numerics;
+  return {.reference_density = scene.bulk_density,
+          .gravity = scene.gravity,
+          .earth_pressure_ratio = scene.earth_pressure_ratio,
+          .spacing = scene.spacing,
+          .smoothing_length = n.smoothing_length * scene.spacing,
+          .viscosity = n.viscosity,
+          .flow_viscosity = n.flow_viscosity,
+          .stress_diffusion = n.stress_diffusion};
+}
 
 } // namespace host

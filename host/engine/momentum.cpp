@@ -27,17 +27,6 @@ PairSide<Geometry, Lane> gather_cluster(const Records<Geometry>& records, int fi
   return side;
 }
 
-/// w_i sigma_i sum g + sum w_j sigma_j g, over the weight.
-template <class Geometry, int D, int S>
-void stress_force(const Lane (&stress)[S], const Lane& inverse_weight, const PairSums<Geometry, Lane>& sums,
-                  Lane (&force)[D]) {
-  for (int a = 0; a < D; ++a) {
-    force[a] = sums.stress_force[a];
-    if constexpr (Geometry::hoop) force[a] *= inverse_weight;
-    for (int b = 0; b < D; ++b) force[a] += stress[component<D>(a, b)] * sums.slope[b];
-  }
-}
-
 /// Adds `count` neighbours.
 template <bool diffuses, class Geometry, int D>
 void add_pairs(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i, const Records<Geometry>& records,
@@ -59,8 +48,8 @@ void add_pairs(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i, const
 template <class Geometry>
 ClusterForces<Geometry> forces_on(const Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
                                   const NeighbourLists& lists, const Records<Geometry>& records,
-                                  const Scene& scene, int c) {
-  constexpr int D = Geometry::dimension, S = Geometry::stress_components;
+                                  const Medium& medium, int c) {
+  constexpr int S = Geometry::stress_components;
   const int first = c * lanes;
   const auto i = gather_cluster(records, first, std::min(lanes, p.count - first));
   PairSums<Geometry, Lane> inside, wall;
@@ -68,36 +57,22 @@ ClusterForces<Geometry> forces_on(const Particles<Geometry>& p, const Kernel<Geo
   add_pairs<true>(kernel, i, records, neighbour, lists.interior[c], inside);
   add_pairs<false>(kernel, i, records, neighbour + lists.interior[c], lists.total[c] - lists.interior[c],
                    wall);
-  Lane stress[S], by_stress[D], by_walls[D];
-  for (int s = 0; s < S; ++s) stress[s] = load(&p.stress[s][first]);
-  const Lane inverse_weight = 1.0 / i.weight, inverse_density = 1.0 / load(&p.density[first]);
-  stress_force(stress, inverse_weight, inside, by_stress);
-  stress_force(stress, inverse_weight, wall, by_walls);
-  if constexpr (Geometry::hoop) by_stress[0] -= stress[2] * inverse_weight;
-  Lane damping = (0.25 * kernel.h) * inverse_density;
-  if constexpr (Geometry::hoop) damping *= 0.5 * inverse_weight;
-  ClusterForces<Geometry> forces;
-  for (int a = 0; a < D; ++a) {
-    forces.stress[a] = by_stress[a] * inverse_density;
-    forces.viscous[a] = inside.viscous[a] * damping;
-    forces.wall[a] = by_walls[a] * inverse_density + wall.viscous[a] * damping;
-  }
-  const double weight_gradient = scene.bulk_density * scene.gravity;
-  const Lane twice_diffusivity = 2 * load(&p.diffusivity[first]);
-  for (int s = 0; s < S; ++s) {
-    Lane rate = stress[s] * inside.weight - inside.stress[s];
-    if (s < 3) rate -= (s == D - 1 ? 1 : scene.earth_pressure_ratio) * weight_gradient * inside.slope[D - 1];
-    forces.diffusion[s] = rate * twice_diffusivity;
-  }
-  return forces;
+  OwnStress<Geometry, Lane> own;
+  for (int s = 0; s < S; ++s) own.stress[s] = load(&p.stress[s][first]);
+  own.inverse_weight = 1.0 / i.weight;
+  own.inverse_density = 1.0 / load(&p.density[first]);
+  const auto by_pairs = finish_pairs(own, inside, kernel.h);
+  return {by_pairs.stress, by_pairs.viscous, finish_images(own, wall, kernel.h),
+          diffusion_rate(own, inside, load(&p.diffusivity[first]), medium)};
 }
 
 template <class Geometry>
 void update_acceleration(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
                          const NeighbourLists& lists, const Records<Geometry>& records, const Scene& scene) {
+  const Medium medium = medium_of(scene);
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < p.clusters(); ++c) {
-    const auto forces = forces_on(p, kernel, lists, records, scene, c);
+    const auto forces = forces_on(p, kernel, lists, records, medium, c);
     for (int a = 0; a < Geometry::dimension; ++a) {
       store(&p.stress_acceleration[a][c * lanes], forces.stress[a]);
       store(&p.viscous_acceleration[a][c * lanes], forces.viscous[a]);
@@ -110,17 +85,17 @@ void update_acceleration(Particles<Geometry>& p, const Kernel<Geometry::dimensio
 
 template ClusterForces<PlaneStrain> forces_on(const Particles<PlaneStrain>&, const Kernel<2>&,
                                               const NeighbourLists&, const Records<PlaneStrain>&,
-                                              const Scene&, int);
+                                              const Medium&, int);
 template void update_acceleration(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&,
                                   const Records<PlaneStrain>&, const Scene&);
 template ClusterForces<Axisymmetric> forces_on(const Particles<Axisymmetric>&, const Kernel<2>&,
                                                const NeighbourLists&, const Records<Axisymmetric>&,
-                                               const Scene&, int);
+                                               const Medium&, int);
 template void update_acceleration(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&,
                                   const Records<Axisymmetric>&, const Scene&);
 template ClusterForces<ThreeDimensional> forces_on(const Particles<ThreeDimensional>&, const Kernel<3>&,
                                                    const NeighbourLists&, const Records<ThreeDimensional>&,
-                                                   const Scene&, int);
+                                                   const Medium&, int);
 template void update_acceleration(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&,
                                   const Records<ThreeDimensional>&, const Scene&);
 

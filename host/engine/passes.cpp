@@ -64,11 +64,12 @@ ClusterMotion move(Particles<Geometry>& p, const Kernel<Geometry::dimension>& ke
                    std::vector<ClusterMotion>& motions) {
   constexpr int together = StressBlocks::points / lanes; // as in `deform`: what a thread has at hand
   const int blocks = (p.clusters() + together - 1) / together;
+  const Medium medium = medium_of(scene);
   motions.assign(blocks, {});
 #pragma omp parallel for schedule(static)
   for (int b = 0; b < blocks; ++b)
     for (int c = b * together; c < std::min((b + 1) * together, p.clusters()); ++c) {
-      const auto forces = forces_on(p, kernel, lists, records, scene, c);
+      const auto forces = forces_on(p, kernel, lists, records, medium, c);
       motions[b].add(move_cluster(p, scene, mirrors, kernel.support, dt_before, dt, forces, c));
       for (std::size_t s = 0; s < p.stress.size(); ++s) {
         double* stress = &p.stress[s][c * lanes];

@@ -260,7 +260,7 @@ template <class Geometry> ClusterMotion move_among_walls(Simulation<Geometry>& s
     for (int b = 0; b < blocks; ++b) {
       const auto loads = std::span(room.load).subspan(b * wall_count, wall_count);
       for (int c = b * together; c < std::min((b + 1) * together, p.clusters()); ++c) {
-        const auto forces = forces_on(p, s.kernel, s.lists, s.records, s.scene, c);
+        const auto forces = forces_on(p, s.kernel, s.lists, s.records, medium_of(s.scene), c);
         const int first = c * lanes, used = std::min(lanes, p.count - first);
         for (int l = 0; l < used; ++l)
           move_one(s, first + l, forces, l, walls, 0.5 * (s.dt_before + s.dt), room.motion[b], loads, near);

@@ -26,7 +26,8 @@ template <class Geometry> void expect_parts_add_up(const WallCase& c, const std:
       for (std::size_t e = 0; e < sand.stress.size(); ++e) sand.stress[e][i] = s.records.stress[i].stress[e];
       sand.density[i] = s.records.stress[i].density;
     }
-    const auto forces = host::forces_on(sand, s.kernel, s.lists, s.records, s.scene, cluster);
+    const auto forces =
+        host::forces_on(sand, s.kernel, s.lists, s.records, host::medium_of(s.scene), cluster);
     for (int l = 0; l < host::lanes && cluster * host::lanes + l < sand.count; ++l) {
       host::split_push(s, cluster * host::lanes + l, all, push);
       for (int a = 0; a < D; ++a) {
