@@ -3,6 +3,7 @@
 #include "calibration/calibrate.hpp"
 #include "calibration/propagate.hpp"
 #include "drivers/abaqus/deck.hpp"
+#include "drivers/commands/compile.hpp"
 #include "drivers/element/command.hpp"
 #include "drivers/files/scene_file.hpp"
 #include "drivers/run/info.hpp"
@@ -272,6 +273,7 @@ int main(int argc, char** argv) {
     add_abaqus(app);
     add_study(app);
     add_calibrate(app);
+    commands::add_compile(app);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
