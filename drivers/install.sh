@@ -7,7 +7,7 @@ packages=(
   build-essential gfortran cmake ninja-build pkg-config clang-format
   libeigen3-dev libgsl-dev libhdf5-dev libgtest-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev libspdlog-dev
-  python3-matplotlib python3-h5py
+  python3-matplotlib python3-h5py python3-openpyxl
 )
 
 missing=()

@@ -1,131 +1,162 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/files/csv_table.hpp"
-#include "drivers/files/toml_text.hpp"
+#include "drivers/files/decoded_text.hpp"
+#include "drivers/files/workbook.hpp"
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <optional>
 #include <stdexcept>
 
 namespace drivers {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
-  return first == text.npos ? "" : text.substr(first, last - first + 1);
+/// Takes the line `sep=;` away, by which spreadsheets state the separator.
+void take_separator_line(std::vector<Record>& records, TableFormat& format, const std::string& file) {
+  if (records.empty() || records.front().line != 1) return;
+  auto text = records.front().text;
+  if (text.starts_with('"') && text.ends_with('"') && text.size() > 1) text = text.substr(1, text.size() - 2);
+  if (!(text.starts_with("sep=") || text.starts_with("SEP=")) || text.size() < 5) return;
+  if (text.size() > 5 || std::string_view("\t;, ").find(text[4]) == text.npos)
+    throw std::runtime_error(
+        fmt::format("{}:1: expected sep= and a tab, semicolon, comma or blank, found {}", file, shown(text)));
+  if (!format.separator) format.separator = text[4];
+  records.erase(records.begin());
 }
 
-/// Cells between separators; between runs of blanks if the separator is a blank.
-Words split(const std::string& line, char separator) {
-  Words out;
-  if (separator != ' ') {
-    for (std::size_t at = 0; at <= line.size();) {
-      const auto end = std::min(line.find(separator, at), line.size());
-      out.push_back(trimmed(line.substr(at, end - at)));
-      at = end + 1;
-    }
-    return out;
-  }
-  for (auto at = line.find_first_not_of(" \t\r"); at != line.npos;) {
-    const auto end = std::min(line.find_first_of(" \t\r", at), line.size());
-    out.push_back(trimmed(line.substr(at, end - at)));
-    at = line.find_first_not_of(" \t\r", end);
-  }
-  return out;
-}
-
-char separator_of(const std::string& header) {
-  for (const char c : {'\t', ';', ','})
-    if (header.find(c) != header.npos) return c;
-  return ' ';
-}
-
-std::optional<double> finite_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+std::string lines_text(int first, int last) {
+  return first == last ? fmt::format("line {}", first) : fmt::format("lines {} to {}", first, last);
 }
 
 } // namespace
 
-CsvTable::CsvTable(const std::string& file_name) : name(file_name) {
-  std::ifstream file(file_name);
-  if (!file || std::filesystem::is_directory(file_name))
-    throw std::runtime_error(fmt::format("{}: expected a readable table, found none", file_name));
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3); // byte order mark
-    take(line, number);
+CsvTable::CsvTable(const std::string& file_name, const TableFormat& wanted)
+    : name(file_name), format(wanted) {
+  const auto bytes = read_bytes(name);
+  DecodedText decoded;
+  if (is_workbook(bytes, name)) {
+    decoded = {workbook_text(name, format.sheet), "a sheet of a workbook"};
+    format.separator = ',';
+    format.decimal = '.';
+  } else {
+    decoded = decode(bytes, name, format.encoding);
   }
-  if (cells.empty())
-    throw std::runtime_error(
-        fmt::format("{}:{}: expected a line of column names and rows of numbers, found {}", name, number,
-                    names.empty() ? "neither" : "no row"));
+  encoding = decoded.encoding;
+  auto records = split_records(decoded.text, name);
+  take_separator_line(records, format, name);
+  read_notes(records);
+  layout = find_layout(records, format, name);
 }
 
-void CsvTable::take(const std::string& line, int number) {
-  const auto first = line.find_first_not_of(" \t\r");
-  if (first == line.npos) return;
-  if (line[first] == '#') {
-    if (const auto colon = line.find(':'); colon != line.npos)
-      notes[trimmed(line.substr(first + 1, colon - first - 1))] = trimmed(line.substr(colon + 1));
-    return;
+void CsvTable::read_notes(const std::vector<Record>& records) {
+  for (const auto& record : records) {
+    const auto colon = record.text.find(':');
+    if (record.comment && colon != record.text.npos)
+      notes[std::string(trimmed(record.text.substr(1, colon - 1)))] = trimmed(record.text.substr(colon + 1));
   }
-  if (names.empty()) {
-    separator = separator_of(line);
-    names = split(line, separator);
-    for (const auto& column : names)
-      if (std::count(names.begin(), names.end(), column) > 1)
-        throw std::runtime_error(fmt::format("{}:{}: two columns are named '{}'", name, number, column));
-    return;
-  }
-  cells.push_back(split(line, separator));
-  lines.push_back(number);
-  if (cells.back().size() != names.size())
-    throw std::runtime_error(
-        fmt::format("{}:{}: expected {} cells, found {}", name, number, names.size(), cells.back().size()));
 }
 
 bool CsvTable::has(std::string_view wanted) const {
-  return std::find(names.begin(), names.end(), wanted) != names.end();
+  return std::any_of(layout.headings.begin(), layout.headings.end(), [&](const auto& h) {
+    return !wanted.empty() && (h.full == wanted || h.name == wanted);
+  });
 }
 
 std::string CsvTable::column_names() const {
-  return joined(names);
+  constexpr std::size_t most = 12;
+  Words names;
+  for (const auto& h : layout.headings)
+    if (!h.full.empty()) names.push_back(names.size() < most ? shown(h.full) : "...");
+  names.resize(std::min(names.size(), most + 1));
+  return names.empty() ? fmt::format("{} columns without names", columns()) : joined(names);
 }
 
 std::size_t CsvTable::column(std::string_view wanted) const {
   if (!has(wanted))
     throw std::runtime_error(
-        fmt::format("{}: expected a column '{}', found {}", name, wanted, column_names()));
-  return std::size_t(std::find(names.begin(), names.end(), wanted) - names.begin());
+        fmt::format("{}: expected a column {}, found {}", name, shown(wanted), column_names()));
+  for (const bool by_full : {true, false}) {
+    std::vector<std::size_t> found;
+    for (std::size_t c = 0; c < columns(); ++c)
+      if ((by_full ? layout.headings[c].full : layout.headings[c].name) == wanted) found.push_back(c);
+    if (found.size() > 1)
+      throw std::runtime_error(
+          fmt::format("{}:{}: columns {} and {} are named {}: give the number of the column", name,
+                      layout.names_line, found[0] + 1, found[1] + 1, shown(wanted)));
+    if (found.size() == 1) return found[0];
+  }
+  return 0;
+}
+
+std::size_t CsvTable::column(long number) const {
+  if (number < 1 || number > long(columns()))
+    throw std::runtime_error(
+        fmt::format("{}: expected a column from 1 to {}, found {}", name, columns(), number));
+  return std::size_t(number - 1);
 }
 
 double CsvTable::number(std::size_t row, std::size_t column) const {
-  const auto& text = cells[row][column];
-  if (const auto value = finite_number(text)) return *value;
-  throw std::runtime_error(fmt::format("{}:{}: column '{}': expected a finite number, found \"{}\"", name,
-                                       lines[row], names[column], text));
+  const auto& cell = text(row, column);
+  const auto value = read_number(cell, layout.decimal);
+  if (value && std::isfinite(*value)) return *value;
+  const auto& full = layout.headings[column].full;
+  const bool gap = layout.rows[row].kinds[column] == CellKind::gap;
+  throw std::runtime_error(fmt::format("{}:{}: column {}: expected a finite number, found {}{}", name,
+                                       line(row), full.empty() ? fmt::format("{}", column + 1) : shown(full),
+                                       shown(cell), gap ? " (missing = \"skip\" drops such rows)" : ""));
 }
 
-std::vector<double> CsvTable::numbers(std::string_view wanted) const {
-  const auto place = column(wanted);
+std::vector<double> CsvTable::numbers(std::size_t column) const {
   std::vector<double> out;
-  for (std::size_t row = 0; row < rows(); ++row) out.push_back(number(row, place));
+  for (std::size_t row = 0; row < rows(); ++row) out.push_back(number(row, column));
   return out;
 }
 
 double CsvTable::note(std::string_view wanted) const {
   const auto found = notes.find(wanted);
-  const auto value = found == notes.end() ? std::nullopt : finite_number(found->second);
-  if (!value)
+  const auto value = found == notes.end() ? std::nullopt : read_number(found->second, layout.decimal);
+  if (!value || !std::isfinite(*value))
     throw std::runtime_error(fmt::format("{}: no comment line '# {}: NUMBER' in this file", name, wanted));
   return *value;
+}
+
+void CsvTable::drop_gaps(const std::vector<std::size_t>& columns) {
+  if (!format.skip_gaps) return;
+  const auto has_gap = [&](const TableRow& row) {
+    return std::any_of(columns.begin(), columns.end(), [&](auto c) { return row.kinds[c] == CellKind::gap; });
+  };
+  for (const auto& row : layout.rows)
+    if (has_gap(row)) lines_with_gaps.push_back(row.line);
+  std::erase_if(layout.rows, has_gap);
+  if (layout.rows.empty()) throw std::runtime_error(name + ": each row has a gap in a column that is used");
+}
+
+std::string CsvTable::summary() const {
+  std::string out = fmt::format("{}: {} rows, {}", name, rows(), lines_text(line(0), line(rows() - 1)));
+  if (encoding.find(' ') != encoding.npos)
+    out += ", " + encoding;
+  else
+    out += fmt::format(", {}{}, {}",
+                       columns() > 1 ? "separated by " + separator_name(layout.separator) + ", " : "",
+                       decimal_name(layout.decimal), encoding);
+  out += "\n  columns:";
+  for (std::size_t c = 0; c < columns(); ++c) {
+    const auto& h = layout.headings[c];
+    if (h.full.empty() && std::all_of(layout.rows.begin(), layout.rows.end(),
+                                      [c](const auto& r) { return r.cells[c].empty(); }))
+      continue;
+    out += fmt::format("{} {} {}{}", c ? "," : "", c + 1, h.name.empty() ? "without a name" : shown(h.name),
+                       h.unit.empty() ? "" : " [" + h.unit + "]");
+  }
+  for (const auto& d : layout.dropped)
+    out += fmt::format("\n  dropped: {} ({})", lines_text(d.first, d.last), d.where);
+  if (!lines_with_gaps.empty()) {
+    Words lines;
+    for (std::size_t i = 0; i < std::min<std::size_t>(lines_with_gaps.size(), 10); ++i)
+      lines.push_back(fmt::format("{}", lines_with_gaps[i]));
+    out += fmt::format("\n  skipped: {} rows with gaps (line {}{})", lines_with_gaps.size(), joined(lines),
+                       lines_with_gaps.size() > lines.size() ? ", ..." : "");
+  }
+  return out + "\n";
 }
 
 } // namespace drivers

@@ -54,30 +54,28 @@ TEST(MeasuredPath, UnitsAndSignsAreDeclaredPerColumn) {
 
 TEST(MeasuredPath, BadRowsAreNamedByLine) {
   EXPECT_EQ(error_of("e,s\n1,2\n2,nan\n", both),
-            "BadRowsAreNamedByLine.csv:3: column 's': expected a finite number, found \"nan\"");
+            "BadRowsAreNamedByLine.csv:3: column \"s\": expected a finite number, found \"nan\" "
+            "(missing = \"skip\" drops such rows)");
   EXPECT_EQ(error_of("e,s\n1,2\n2,\n", both),
-            "BadRowsAreNamedByLine.csv:3: column 's': expected a finite number, found \"\"");
+            "BadRowsAreNamedByLine.csv:3: column \"s\": expected a finite number, found \"\" "
+            "(missing = \"skip\" drops such rows)");
   EXPECT_EQ(error_of("e,s\n1,2\n2,3 kPa\n", both),
-            "BadRowsAreNamedByLine.csv:3: column 's': expected a finite number, found \"3 kPa\"");
-  EXPECT_EQ(error_of("e,s\n#\n1,2,3\n", both), "BadRowsAreNamedByLine.csv:3: expected 2 cells, found 3");
-  EXPECT_EQ(error_of("e,s\n", both),
-            "BadRowsAreNamedByLine.csv:1: expected a line of column names and rows of numbers, found no row");
-  EXPECT_EQ(error_of("e,p\n1,2\n", both), "BadRowsAreNamedByLine.csv: expected a column 's', found e, p");
+            "BadRowsAreNamedByLine.csv:3: column \"s\": expected a finite number, found \"3 kPa\" "
+            "(last_line ends the table above)");
+  EXPECT_EQ(error_of("e,s\n#\n1,2,3\n", both),
+            "BadRowsAreNamedByLine.csv:3: expected 2 cells, as many as line 1 has names, found 3: check "
+            "separator and "
+            "decimal, or state the line of the names (names_line; 0: there is none)");
+  EXPECT_EQ(error_of("e,s\n", both), "BadRowsAreNamedByLine.csv:1: expected rows of numbers between tabs, "
+                                     "semicolons, commas or blanks, found none");
+  EXPECT_EQ(error_of("e,p\n1,2\n", both),
+            "BadRowsAreNamedByLine.csv: expected a column \"s\", found \"e\", \"p\"");
   EXPECT_EQ(error_of("e,s\n1,2\n500,3\n", both), "BadRowsAreNamedByLine.csv:3: axial_strain: expected a "
                                                  "strain of at most 3, found 5: is its unit right?");
   EXPECT_EQ(error_of("e,s\n1,2\n2,3\n2,3\n",
                      "columns = [" + axial + ", {column = 's', quantity = 'time', unit = 'min'}]")
                 .substr(0, 65),
             "BadRowsAreNamedByLine.csv:4: expected a time after 180 s, found 1");
-}
-
-TEST(CsvTable, TheLineOfNamesTellsTheSeparator) {
-  const CsvTable csv(file_with("# void_ratio: 0.61\n\"strain, %\";\"stress, kPa\"\n1;+10\n"));
-  EXPECT_EQ(csv.numbers("stress, kPa"), std::vector<double>{10});
-  EXPECT_EQ(csv.note("void_ratio"), 0.61);
-  EXPECT_THROW(csv.note("porosity"), std::runtime_error);
-  EXPECT_EQ(CsvTable(file_with("a  b\n 1\t 2 \n")).numbers("b"), std::vector<double>{2});
-  EXPECT_THROW(CsvTable(file_with("a,a\n1,2\n")), std::runtime_error);
 }
 
 TEST(MeasuredPath, KeysAreChecked) {
