@@ -113,7 +113,9 @@ std::vector<double> CsvTable::numbers(std::size_t column) const {
 
 double CsvTable::note(std::string_view wanted) const {
   const auto found = notes.find(wanted);
-  const auto value = found == notes.end() ? std::nullopt : read_number(found->second, layout.decimal);
+  std::optional<double> value;
+  if (found != notes.end()) value = read_number(found->second, '.');
+  if (found != notes.end() && !value) value = read_number(found->second, layout.decimal);
   if (!value || !std::isfinite(*value))
     throw std::runtime_error(fmt::format("{}: no comment line '# {}: NUMBER' in this file", name, wanted));
   return *value;

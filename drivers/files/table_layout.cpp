@@ -83,7 +83,7 @@ TableLayout find_layout(const std::vector<Record>& records, const TableFormat& f
   if (found)
     for (const auto& row : found->rows)
       numbers += std::size_t(std::count(row.kinds.begin(), row.kinds.end(), CellKind::number));
-  if (!found || (failed.separates && failed.numbers >= numbers)) throw std::runtime_error(failed.problem);
+  if (!found || (failed.separates && failed.numbers > numbers)) throw std::runtime_error(failed.problem);
   return std::move(*found);
 }
 

@@ -117,7 +117,7 @@ inline std::vector<Layout> text_layouts() {
       {"quoted_decimal_commas", names + table(comma, between(",", "\"")), usual, {}},
       {"blanks_decimal_commas", "eps1 epsv q\n" + table(comma, between("  ")), usual, {}},
       {"tabs", "eps1, %\tepsv, %\tq, kPa\n" + table(point, between("\t")), usual, {}},
-      {"names_by_blanks", "eps1 epsv q = s1 - s3\n[%] [%] [kPa]\n" + table(point, between("\t")), {}, {}},
+      {"names_by_blanks", "eps1 epsv q = s1-s3\n[%] [%] [kPa]\n" + table(point, between("\t")), {}, {}},
       {"names_in_comment",
        "# drained test, dense\n# eps1 [%]   epsv [%]   q [kPa]\n" + table(point, between("   ")),
        usual,
