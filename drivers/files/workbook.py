@@ -8,6 +8,7 @@ table: percentages (5 % is stored as 0.05), formulas without a stored value, an 
 """
 import datetime
 import sys
+import warnings
 
 
 def fail(message):
@@ -66,4 +67,5 @@ def main():
     print("\n".join(lines))
 
 
+warnings.simplefilter("ignore")
 main()
