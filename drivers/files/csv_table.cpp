@@ -23,6 +23,12 @@ void take_separator_line(std::vector<Record>& records, TableFormat& format, cons
   records.erase(records.begin());
 }
 
+/// A name in a list of names: control characters escaped, no quotes around it.
+std::string shown_bare(const std::string& text) {
+  const auto quoted = shown(text);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 std::string lines_text(int first, int last) {
   return first == last ? fmt::format("line {}", first) : fmt::format("lines {} to {}", first, last);
 }
@@ -65,7 +71,7 @@ std::string CsvTable::column_names() const {
   constexpr std::size_t most = 12;
   Words names;
   for (const auto& h : layout.headings)
-    if (!h.full.empty()) names.push_back(names.size() < most ? shown(h.full) : "...");
+    if (!h.full.empty()) names.push_back(names.size() < most ? shown_bare(h.full) : "...");
   names.resize(std::min(names.size(), most + 1));
   return names.empty() ? fmt::format("{} columns without names", columns()) : joined(names);
 }

@@ -19,6 +19,12 @@ std::optional<Words> cells_above(const Reading& r, std::string_view line) {
 /// Refuses a line above the table that may be a row of it, or that has not a name for each column.
 Words require_names(const Reading& r, const TableRow& row) {
   const auto cells = cells_above(r, r.text_of(row.line));
+  if (!cells && row.has_number())
+    r.fail(
+        row.line,
+        fmt::format("expected {} cells, as the lines below, or names, found {}: state the line of the names "
+                    "(names_line; 0: there is none)",
+                    r.block.columns(), shown(r.text_of(row.line))));
   if (!cells)
     r.fail(r.first_row().line,
            fmt::format(
@@ -92,14 +98,11 @@ void find_names(Reading& r) {
     return i < above.size() ? unit_cells(above[i].cells) : std::nullopt;
   };
   const auto near = units_of(0), far = units_of(1);
-  const std::size_t names = near ? 1 : 0;
-  if (names == 1 && above.size() < 2)
-    r.fail(above[0].line,
-           "expected a line of names above that of the units, found none: names_line = 0 if there is "
-           "none");
+  // A single line of units is rather one of names that look like units: s, h.
+  const std::size_t names = near && above.size() > 1 ? 1 : 0;
   r.out.names_line = above[names].line;
-  if (near || far) r.out.units_line = above[1 - names].line;
-  set_headings(r, above[names].cells, near ? near : far);
+  if (above.size() > 1 && (near || far)) r.out.units_line = above[1 - names].line;
+  set_headings(r, above[names].cells, names == 1 ? near : far);
 }
 
 } // namespace

@@ -68,8 +68,7 @@ TEST(MeasuredPath, BadRowsAreNamedByLine) {
             "decimal, or state the line of the names (names_line; 0: there is none)");
   EXPECT_EQ(error_of("e,s\n", both), "BadRowsAreNamedByLine.csv:1: expected rows of numbers between tabs, "
                                      "semicolons, commas or blanks, found none");
-  EXPECT_EQ(error_of("e,p\n1,2\n", both),
-            "BadRowsAreNamedByLine.csv: expected a column \"s\", found \"e\", \"p\"");
+  EXPECT_EQ(error_of("e,p\n1,2\n", both), "BadRowsAreNamedByLine.csv: expected a column \"s\", found e, p");
   EXPECT_EQ(error_of("e,s\n1,2\n500,3\n", both), "BadRowsAreNamedByLine.csv:3: axial_strain: expected a "
                                                  "strain of at most 3, found 5: is its unit right?");
   EXPECT_EQ(error_of("e,s\n1,2\n2,3\n2,3\n",
