@@ -168,9 +168,10 @@ TEST(CsvTable, ARowThatDoesNotFitIsNamed) {
       error_of("a,b,c\n1,2,3\n0.1,err,3\n4,5,6\n7,8,9\n"),
       ":3: expected a row of numbers or a line of names, found \"0.1,err,3\": state the line of the names "
       "(names_line; 0: there is none)");
-  EXPECT_EQ(error_of("a,b\n1,2\n3,4,5\n6,7\n8,9\n"),
-            ":3: expected 2 cells, as the lines below, or names, found \"3,4,5\": state the line of the names "
-            "(names_line; 0: there is none)");
+  EXPECT_EQ(
+      error_of("a,b\n1,2\n3,4,5\n6,7\n8,9\n"),
+      ":3: expected 2 cells, as the lines below, or names, found \"3,4,5\": state the line of the names "
+      "(names_line; 0: there is none)");
   EXPECT_EQ(error_of("a,b\n1,2\n3,4\n5\n6,7\n"),
             ":4: expected 2 cells, found 1 (last_line ends the table above)");
   EXPECT_EQ(error_of("a,b,c\n1,2,3\nPeak,5.5,\n"),
