@@ -2,10 +2,10 @@
 #include "calibration/calibrate.hpp"
 #include "calibration/coverage.hpp"
 #include "calibration/report.hpp"
+#include "host/files/whole_file.hpp"
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <spdlog/spdlog.h>
 
 namespace calibration {
@@ -23,25 +23,17 @@ void make_folder(const std::string& folder) {
   if (error) throw std::runtime_error(fmt::format("{}: cannot be created ({})", folder, error.message()));
 }
 
-/// Replaces a file as a whole.
-void write_text(const std::string& file, const std::string& text) {
-  std::ofstream out(file + ".new");
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file));
-  std::filesystem::rename(file + ".new", file);
-}
-
 void run_coverage(const Fit& fit, const CalibrateOptions& options) {
   if (!fit.synthetic || !fit.sampling || !(fit.synthetic->noise > 0))
     throw std::runtime_error(fmt::format(
         "{}: --coverage needs the tables [synthetic], with noise above 0, and [sampling]", fit.file_name));
   const auto start = Clock::now();
   const auto file = (std::filesystem::path(fit.output_folder) / "coverage.csv").string();
-  const auto known = options.resume && std::filesystem::exists(file) ? read_coverage(fit, file) : Coverage{};
-  int before = -1; // sets taken from the file
-  const auto coverage = study_coverage(fit, options.coverage, known, [&](const Coverage& now, int done) {
+  const auto earlier = options.resume && std::filesystem::exists(file) ? read_coverage(fit, file) : Coverage{};
+  int before = -1; // number of sets taken from the file
+  const auto coverage = study_coverage(fit, options.coverage, earlier, [&](const Coverage& now, int done) {
     if (before < 0) before = done - 1;
-    write_text(file, coverage_csv(fit, now));
+    host::write_whole(file, coverage_csv(fit, now));
     const double elapsed = seconds_since(start);
     if (!options.quiet)
       spdlog::info("{} of {} data sets, {:.0f} s, {:.0f} s left", done, options.coverage, elapsed,
@@ -73,16 +65,16 @@ void calibrate(const CalibrateOptions& options) {
   const auto best = least_squares(objective, [&](const std::string& line) {
     if (!options.quiet) spdlog::info("{}", line);
   });
-  const auto known = identify(objective, best);
+  const auto identifiability = identify(objective, best);
   std::optional<Posterior> posterior;
   if (fit.sampling && !options.best_only) {
     const auto file = (std::filesystem::path(fit.output_folder) / "chain.h5").string();
     if (!options.resume) std::filesystem::remove(file); // a new run replaces the results of an older one
-    posterior = sample_posterior(objective, best, known, *fit.sampling,
+    posterior = sample_posterior(objective, best, identifiability, *fit.sampling,
                                  {file, options.resume, progress_line(options.quiet)});
     predict_bands(objective, *fit.sampling, *posterior);
   }
-  const Result result{objective,           best, known, posterior ? &*posterior : nullptr, options.command,
+  const Result result{objective,           best, identifiability, posterior ? &*posterior : nullptr, options.command,
                       seconds_since(start)};
   const auto files = write_report(result);
   fmt::print("{}\n", report_text(result));

@@ -7,11 +7,11 @@ namespace calibration {
 
 struct CalibrateOptions {
   std::string fit_file;
-  std::string folder;     ///< for the results, instead of that of the file
-  bool resume = false;    ///< go on with the chain of an interrupted run
+  std::string folder;     ///< for the results; empty: that of the fit file
+  bool resume = false;    ///< continue the chain of an interrupted run
   bool best_only = false; ///< no sampling
-  int coverage = 0;       ///< synthetic data sets for a study of coverage; 0: a fit
-  bool quiet = false;     ///< no progress
+  int coverage = 0;       ///< number of synthetic data sets of a coverage study; 0: a fit
+  bool quiet = false;     ///< no progress lines
   std::string command;    ///< as typed, for the report
 };
 

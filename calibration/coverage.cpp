@@ -9,18 +9,18 @@
 namespace calibration {
 namespace {
 
-std::vector<Covered> one_set(const Fit& base, int number) {
+std::vector<IntervalCheck> check_set(const Fit& base, int number) {
   Fit fit = base;
   make_curves(fit, fit.synthetic->seed + std::uint64_t(number));
   Objective objective(fit);
   const auto best = least_squares(objective);
-  const auto known = identify(objective, best);
+  const auto identifiability = identify(objective, best);
   auto options = *fit.sampling;
   options.seed += std::uint64_t(number);
   options.burn_in = options.coverage_burn_in;
   options.steps = options.coverage_steps;
-  const auto posterior = sample_posterior(objective, best, known, options);
-  std::vector<Covered> out;
+  const auto posterior = sample_posterior(objective, best, identifiability, options);
+  std::vector<IntervalCheck> out;
   for (int d = 0; d < fit.parameters(); ++d) {
     const auto& p = fit.unknowns[d];
     const auto& m = posterior.diagnosis.marginals[d];
@@ -32,7 +32,7 @@ std::vector<Covered> one_set(const Fit& base, int number) {
 
 } // namespace
 
-double Coverage::part(std::size_t parameter) const {
+double Coverage::of(std::size_t parameter) const {
   double inside = 0;
   for (const auto& set : sets) inside += set[parameter].inside();
   return inside / double(sets.size());
@@ -40,25 +40,25 @@ double Coverage::part(std::size_t parameter) const {
 
 double Coverage::overall() const {
   double sum = 0;
-  for (std::size_t d = 0; d < names.size(); ++d) sum += part(d);
+  for (std::size_t d = 0; d < names.size(); ++d) sum += of(d);
   return sum / double(names.size());
 }
 
-Coverage study_coverage(const Fit& fit, int sets, const Coverage& known,
-                        const std::function<void(const Coverage&, int)>& tell) {
+Coverage study_coverage(const Fit& fit, int sets, const Coverage& earlier,
+                        const std::function<void(const Coverage&, int)>& progress) {
   Coverage out;
   for (int d = 0; d < fit.parameters(); ++d) out.names.push_back(fit.unknowns[d].name);
-  out.sets = known.sets;
+  out.sets = earlier.sets;
   out.sets.resize(sets);
   int done = int(std::count_if(out.sets.begin(), out.sets.end(), [](const auto& s) { return !s.empty(); }));
   std::exception_ptr error;
 #pragma omp parallel for schedule(dynamic)
   for (int k = 0; k < sets; ++k) {
-    if (k < int(known.sets.size()) && !known.sets[k].empty()) continue;
-    std::vector<Covered> set;
+    if (k < int(earlier.sets.size()) && !earlier.sets[k].empty()) continue;
+    std::vector<IntervalCheck> set;
     std::exception_ptr failed;
     try {
-      set = one_set(fit, k + 1);
+      set = check_set(fit, k + 1);
     } catch (...) {
       failed = std::current_exception();
     }
@@ -67,7 +67,7 @@ Coverage study_coverage(const Fit& fit, int sets, const Coverage& known,
       if (failed) std::rethrow_exception(failed);
       out.sets[k] = std::move(set);
       ++done;
-      if (tell) tell(out, done);
+      if (progress) progress(out, done);
     } catch (...) {
       error = std::current_exception();
     }
@@ -78,8 +78,8 @@ Coverage study_coverage(const Fit& fit, int sets, const Coverage& known,
 
 namespace {
 
-/// A number that belongs to a fit: a resumed study is one of the same.
-std::uint32_t mark(const Fit& fit) {
+/// Hash of the fit's options, by which a resumed study recognises its file.
+std::uint32_t hash_of(const Fit& fit) {
   std::uint32_t hash = 2166136261u; // FNV-1a
   for (const char c : fit.resolved) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
   return hash;
@@ -89,7 +89,7 @@ std::uint32_t mark(const Fit& fit) {
 
 std::string coverage_csv(const Fit& fit, const Coverage& coverage) {
   std::string out = fmt::format(
-      "# fit: {}\ndata_set,parameter,truth,lower_90,upper_90,mean,best,converged,inside\n", mark(fit));
+      "# fit: {}\ndata_set,parameter,truth,lower_90,upper_90,mean,best,converged,inside\n", hash_of(fit));
   for (std::size_t k = 0; k < coverage.sets.size(); ++k)
     for (std::size_t d = 0; d < coverage.sets[k].size(); ++d) {
       const auto& c = coverage.sets[k][d];
@@ -101,8 +101,8 @@ std::string coverage_csv(const Fit& fit, const Coverage& coverage) {
 
 Coverage read_coverage(const Fit& fit, const std::string& file) {
   const drivers::CsvTable csv(file);
-  if (csv.note("fit") != double(mark(fit)))
-    throw std::runtime_error(file + ": of another fit, or of other options");
+  if (csv.note("fit") != double(hash_of(fit)))
+    throw std::runtime_error(file + ": belongs to another fit, or to other options");
   const auto number = csv.numbers("data_set"), truth = csv.numbers("truth"), lower = csv.numbers("lower_90"),
              upper = csv.numbers("upper_90"), mean = csv.numbers("mean"), best = csv.numbers("best"),
              converged = csv.numbers("converged");
@@ -121,7 +121,7 @@ std::string coverage_text(const Coverage& coverage) {
   std::string out = fmt::format("{} data sets, {} with converged chains; truth inside the 90 % interval:\n",
                                 coverage.sets.size(), converged);
   for (std::size_t d = 0; d < coverage.names.size(); ++d)
-    out += fmt::format("{:<10}{:>8.1f} %\n", coverage.names[d], 100 * coverage.part(d));
+    out += fmt::format("{:<10}{:>8.1f} %\n", coverage.names[d], 100 * coverage.of(d));
   return out + fmt::format("{:<10}{:>8.1f} %\n", "all", 100 * coverage.overall());
 }
 

@@ -30,7 +30,7 @@ double variance(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return (values.array() - values.mean()).square().sum() / double(values.size() - 1);
 }
 
-/// First and second half of every chain as chains of their own; the middle one of an odd number is left out.
+/// First and second half of every chain as separate chains; of an odd number of steps the middle one is left out.
 Eigen::MatrixXd split(const Eigen::MatrixXd& draws) {
   const Eigen::Index half = draws.rows() / 2;
   Eigen::MatrixXd halves(half, 2 * draws.cols());
@@ -38,7 +38,7 @@ Eigen::MatrixXd split(const Eigen::MatrixXd& draws) {
   return halves;
 }
 
-/// Normal scores of the ranks among all draws, equal draws share their mean rank, [V] eq. 14.
+/// Normal scores of the ranks among all draws; equal draws have their mean rank, [V] eq. 14.
 Eigen::MatrixXd rank_normalised(const Eigen::MatrixXd& draws) {
   const Eigen::Index n = draws.size();
   std::vector<Eigen::Index> order(n);
@@ -54,7 +54,7 @@ Eigen::MatrixXd rank_normalised(const Eigen::MatrixXd& draws) {
   return scores;
 }
 
-/// Gelman and Rubin's ratio of chains that are already split, [V] eqs 1 to 4.
+/// Gelman and Rubin's ratio for chains that are split already, [V] eqs 1 to 4.
 double rhat(const Eigen::MatrixXd& chains) {
   const double n = double(chains.rows());
   double within = 0;
@@ -83,7 +83,8 @@ Eigen::VectorXd autocovariance(const Eigen::Ref<const Eigen::VectorXd>& chain) {
   return work.head(n) / double(n);
 }
 
-/// Sum of autocorrelations to Geyer's initial monotone sequence, [V] eqs 11 to 13, of chains that are split.
+/// Effective size from the autocorrelations, summed by Geyer's initial monotone sequence, [V] eqs 11 to 13, for chains
+/// that are split already.
 double effective_size_of_split(const Eigen::MatrixXd& chains) {
   if (constant(chains)) return not_a_number;
   const Eigen::Index n = chains.rows();
@@ -100,14 +101,14 @@ double effective_size_of_split(const Eigen::MatrixXd& chains) {
     lag += 2;
     pair = correlation(lag) + correlation(lag + 1);
   }
-  // The even term of the first pair that was left out halves the bias of the truncation.
+  // Adding the even term of the first pair left out halves the bias of the truncation.
   const double time = -1 + 2 * sum + std::max(correlation(lag), 0.0);
   const double draws = double(chains.size());
   return draws / std::max(time, 1 / std::log10(draws)); // antithetic chains: at most n log10 n
 }
 
-/// Quantile of the beta density of `size` draws of which the part `probability` lies below: by bisection, as
-/// gsl_cdf_beta_Pinv fails for some arguments. The normal density stands for it where the two agree to 0.1 %.
+/// Quantile of the beta distribution of `size` draws of which the part `probability` lies below: by bisection, as
+/// gsl_cdf_beta_Pinv fails for some arguments; by the normal distribution where the two agree to 0.1 %.
 double quantile_of_level(double level, double probability, double size) {
   const double rare = std::min(probability, 1 - probability);
   if (size * rare > 2000)
@@ -218,7 +219,7 @@ Eigen::MatrixXd correlation_matrix(const Chain& chain) {
   return covariance.array() / (scale * scale.transpose()).array();
 }
 
-/// The smallest part of the steps in which a walker moved.
+/// Smallest part of the steps in which a walker moved.
 double slowest_walker(const Chain& chain) {
   const auto all = chain.pooled();
   double slowest = 1;
@@ -232,30 +233,30 @@ double slowest_walker(const Chain& chain) {
   return slowest;
 }
 
-void judge(Diagnosis& d, const Chain& chain, const std::vector<std::string>& names, const Thresholds& t) {
-  auto& why = d.verdict.reasons;
+void check_thresholds(Diagnosis& d, const Chain& chain, const std::vector<std::string>& names, const Thresholds& t) {
+  auto& reasons = d.verdict.reasons;
   if (chain.steps < t.steps)
-    why.push_back(fmt::format("{} kept steps of each walker, {} needed", chain.steps, t.steps));
+    reasons.push_back(fmt::format("{} kept steps of each walker, {} needed", chain.steps, t.steps));
   if (!(d.acceptance >= t.acceptance))
-    why.push_back(fmt::format("acceptance {:.4f}, at least {:.4f} needed", d.acceptance, t.acceptance));
-  if (chain.steps > 1 && d.slowest_walker == 0) why.push_back("a walker never moved");
+    reasons.push_back(fmt::format("acceptance {:.4f}, at least {:.4f} needed", d.acceptance, t.acceptance));
+  if (chain.steps > 1 && d.slowest_walker == 0) reasons.push_back("a walker never moved");
   for (std::size_t i = 0; i < d.marginals.size(); ++i) {
     const auto& m = d.marginals[i];
     const std::string name = i < names.size() ? names[i] : fmt::format("dimension {}", i);
     if (std::isnan(m.rhat)) {
-      why.push_back(fmt::format("{}: all samples are equal", name));
+      reasons.push_back(fmt::format("{}: all samples are equal", name));
       continue;
     }
     if (!(m.rhat < t.rhat))
-      why.push_back(fmt::format("{}: R-hat {:.3f}, below {} needed", name, m.rhat, t.rhat));
+      reasons.push_back(fmt::format("{}: R-hat {:.3f}, below {} needed", name, m.rhat, t.rhat));
     if (!(m.bulk_size >= t.effective_size))
-      why.push_back(fmt::format("{}: {:.0f} effective samples of the centre, {:.0f} needed", name,
+      reasons.push_back(fmt::format("{}: {:.0f} effective samples of the centre, {:.0f} needed", name,
                                 m.bulk_size, t.effective_size));
     if (!(m.tail_size >= t.effective_size))
-      why.push_back(fmt::format("{}: {:.0f} effective samples of the tails, {:.0f} needed", name, m.tail_size,
+      reasons.push_back(fmt::format("{}: {:.0f} effective samples of the tails, {:.0f} needed", name, m.tail_size,
                                 t.effective_size));
   }
-  d.verdict.converged = why.empty();
+  d.verdict.converged = reasons.empty();
 }
 
 } // namespace
@@ -271,7 +272,7 @@ Diagnosis diagnose(const Chain& chain, const std::vector<std::string>& names, co
   for (int i = 0; i < chain.dimensions; ++i) d.marginals.push_back(marginal(chain.of(i)));
   d.correlation = correlation_matrix(chain);
   d.slowest_walker = slowest_walker(chain);
-  judge(d, chain, names, thresholds);
+  check_thresholds(d, chain, names, thresholds);
   return d;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether chains have converged and how far their numbers can be trusted: Vehtari, Gelman, Simpson, Carpenter and
-// Buerkner, Bayesian Analysis 16 (2021) 667-718, here [V]. Every function takes draws of one quantity as
-// (steps, chains), at least 8 steps; a column is one chain.
+// Convergence of chains and Monte Carlo errors of their results: Vehtari, Gelman, Simpson, Carpenter and Buerkner,
+// Bayesian Analysis 16 (2021) 667-718, here [V]. Every function takes draws of one quantity as (steps, chains), at least
+// 8 steps; a column is one chain.
 #pragma once
 #include "calibration/sampler.hpp"
 #include <Eigen/Core>
@@ -35,7 +35,7 @@ Interval equal_tailed_interval(const Eigen::MatrixXd& draws, double probability)
 /// The shortest interval that holds the given part of the draws; one interval even if there are several modes.
 Interval shortest_interval(const Eigen::MatrixXd& draws, double probability);
 
-/// What a report says of one dimension.
+/// Summary of one dimension.
 struct Marginal {
   double mean = 0, deviation = 0, median = 0;
   Interval equal_tailed, shortest; ///< of 90 %
@@ -44,11 +44,11 @@ struct Marginal {
   double lower_error = 0, upper_error = 0; ///< of the ends of the equal-tailed interval
 };
 
-/// From this a number may be reported. [V] section 6: R-hat below 1.01, 400 effective draws.
+/// Limits within which results may be reported. [V] section 6: R-hat below 1.01, 400 effective draws.
 struct Thresholds {
   double rhat = 1.01;
   double effective_size = 400; ///< of bulk and of tail
-  double acceptance = 0.01;    ///< less: the ensemble hardly moves
+  double acceptance = 0.01;    ///< part of the proposals accepted
   int steps = 100;             ///< of every walker: split chains of 50
 };
 
@@ -61,12 +61,12 @@ struct Diagnosis {
   std::vector<Marginal> marginals; ///< one for each dimension
   Eigen::MatrixXd correlation;     ///< of the samples; NaN in rows of constant dimensions
   double acceptance = 0;
-  double slowest_walker = 0; ///< the smallest part of kept steps in which a walker moved
+  double slowest_walker = 0; ///< smallest part of the kept steps in which a walker moved
   Verdict verdict;
 };
 
 Marginal marginal(const Eigen::MatrixXd& draws);
-/// `names` of the dimensions are used in the reasons.
+/// The reasons of the verdict use the `names` of the dimensions.
 Diagnosis diagnose(const Chain& chain, const std::vector<std::string>& names,
                    const Thresholds& thresholds = {});
 

@@ -15,7 +15,7 @@ namespace {
 
 using drivers::TomlTable;
 
-/// Bounds of a free error of the model, over the peak of a curve.
+/// Bounds of a model error that is an unknown, over the peak of a curve.
 constexpr double least_model_error = 1e-4, most_model_error = 1;
 
 void read_material_of(const TomlTable& root, Fit& fit) {
@@ -23,7 +23,7 @@ void read_material_of(const TomlTable& root, Fit& fit) {
   if (table.has("properties"))
     table.fail("properties", "SIMSAND: parameters are fitted by their names", "a list of numbers");
   fit.material_source = table.has("file") ? table.path("file") : root.file_name();
-  constexpr double any_void_ratio = 0.6; // each test brings its own
+  constexpr double any_void_ratio = 0.6; // replaced by that of each test
   fit.material = drivers::read_material(table, any_void_ratio);
   fit.grain_density = fit.material.bulk_density * (1 + fit.material.void_ratio.value_or(any_void_ratio));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A FIT.toml, read and checked. Manual: README.md.
+// A fit: tests, unknowns, errors and options, read from FIT.toml and checked. Manual: README.md.
 #pragma once
 #include "calibration/free_parameters.hpp"
 #include "calibration/lab_test.hpp"
@@ -10,41 +10,41 @@
 
 namespace calibration {
 
-/// Standard deviation of one measured value, and the weight of its curves.
+/// Standard deviations of the values of one measure, and the weight of its curves.
 struct ErrorModel {
   bool declared = false;
   double absolute = 0;              ///< in the unit of the curve, SI
-  double relative = 0, of_peak = 0; ///< of the value; of the largest magnitude of the curve
-  double model = 0;                 ///< of the model, of the largest magnitude
-  int free_model = -1;              ///< the unknown that is the model's error; -1: it is given
+  double relative = 0, of_peak = 0; ///< over the value; over the largest magnitude of the curve
+  double model = 0;                 ///< error of the model, over the largest magnitude
+  int free_model = -1;              ///< position among the unknowns of the model's error; -1: it is given
   double weight = 1;
 };
 
 enum class Weighting { arc, strain, rows };
 
 struct SearchOptions {
-  int starts = 8, candidates = 8; ///< searches; points looked at for each
-  int iterations = 100;           ///< most, of one search
+  int starts = 8, candidates = 8; ///< number of searches; points evaluated for the choice of each start
+  int iterations = 100;           ///< limit of one search
   std::uint64_t seed = 1;
 };
 
 struct SamplingOptions {
   int walkers = 32, burn_in = 400, steps = 1600, thinning = 1;
   std::uint64_t seed = 1;
-  int predictive_sets = 400;                        ///< drawn for the bands over the data
-  int coverage_burn_in = 200, coverage_steps = 300; ///< of each data set of a study of coverage
+  int predictive_sets = 400;                        ///< samples drawn for the predicted bands
+  int coverage_burn_in = 200, coverage_steps = 300; ///< for each data set of a coverage study
 };
 
 /// Tests whose curves are made from known parameters.
 struct Synthetic {
   std::vector<double> properties; ///< PROPS
-  double noise = 0;               ///< in errors of measurement
+  double noise = 0;               ///< in standard deviations of the measurement
   std::uint64_t seed = 1;
 };
 
 struct Fit {
   std::string title, file_name;
-  drivers::LoadedMaterial material; ///< fixed parameters, and those beside which the result is shown
+  drivers::LoadedMaterial material; ///< gives the fixed parameters; the report compares its parameters with the result
   std::string material_source;      ///< path of the material file
   double grain_density = 0;
   std::vector<FreeParameter> unknowns;
@@ -64,7 +64,7 @@ struct Fit {
 /// Throws std::runtime_error naming file, line and key. Curves of synthetic tests are made here.
 Fit read_fit(const std::string& path);
 
-/// The curves of the tests at the parameters of `synthetic`, with noise of a stream that belongs to `seed`.
+/// Computes the curves of all tests at the parameters of `synthetic` and adds noise. `seed` is that of the noise.
 void make_curves(Fit& fit, std::uint64_t seed);
 
 } // namespace calibration

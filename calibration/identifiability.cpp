@@ -26,10 +26,10 @@ Identifiability identify(const Objective& objective, const BestFit& fit) {
   for (int k = 0; k < d; ++k)
     range[k] = objective.fit.unknowns[k].highest() - objective.fit.unknowns[k].lowest();
   const Eigen::MatrixXd scaled = fit.jacobian * range.asDiagonal();
-  // By the normal matrix: singular values below 1e-8 of the largest are lost, and count for nothing here.
+  // The normal matrix loses singular values below 1e-8 of the largest, which are far from being determined.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled.transpose() * scaled);
   Identifiability out;
-  // Less rows than parameters leave no misfit to judge by: nothing is gained from it.
+  // With fewer rows than parameters the misfit says nothing about the errors: no inflation.
   out.inflation = fit.degrees > 0 ? std::max(1.0, fit.chi_squared / fit.degrees) : 1;
   const Eigen::VectorXd precision =
       solver.eigenvalues().cwiseMax(0.0) / out.inflation + Eigen::VectorXd::Constant(d, range_precision);
@@ -53,7 +53,7 @@ Identifiability identify(const Objective& objective, const BestFit& fit) {
   return out;
 }
 
-std::string_view in_words(Finding finding) {
+std::string_view describe(Finding finding) {
   switch (finding) {
   case Finding::determined:
     return "determined";

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laboratory tests on axisymmetric specimens, in the terms of the fit: what is done, what is measured. Compression
-// positive, SI, strains logarithmic, stress effective, q = sigma_axial - sigma_radial with its sign.
+// Laboratory tests on axisymmetric specimens, as the fit has them: loading and measured curves. Compression positive, SI
+// units, logarithmic strain, effective stress, q = sigma_axial - sigma_radial with its sign.
 #pragma once
+#include "drivers/element/axisymmetric.hpp"
 #include <array>
 #include <string>
 #include <string_view>
@@ -9,11 +10,7 @@
 
 namespace calibration {
 
-enum class TestKind { triaxial_drained, triaxial_undrained, triaxial_constant_p, oedometric };
-inline constexpr std::array<std::string_view, 4> kind_names{"triaxial-drained", "triaxial-undrained",
-                                                            "triaxial-constant-p", "oedometric"};
-
-/// What a curve shows over the axial strain.
+/// What a curve shows over axial strain.
 enum class Measure {
   deviatoric_stress,
   axial_stress,
@@ -41,15 +38,17 @@ inline const MeasureInfo& info(Measure m) {
   return measures[std::size_t(m)];
 }
 
-/// A specimen and what is done to it: axial strain up to `end_strain` (negative: extension).
+/// A specimen and its loading: axial strain up to `end_strain` (negative: extension).
 struct Specimen {
-  TestKind kind = TestKind::triaxial_drained;
+  const drivers::AxisymmetricTest* kind = nullptr;
   double void_ratio = 0;                      ///< initial
   double axial_stress = 0, radial_stress = 0; ///< initial, Pa
   double end_strain = 0;
+
+  double mean_stress() const { return (axial_stress + 2 * radial_stress) / 3; } ///< initial, Pa
 };
 
-/// Points of one measured curve, one for each strain of its test.
+/// One measured curve: a value for each strain of its test.
 struct Curve {
   Measure measure;
   std::vector<double> values;
@@ -58,7 +57,7 @@ struct Curve {
 struct LabTest {
   std::string name;
   Specimen specimen;
-  std::vector<double> strain; ///< axial, from 0 on without turning back
+  std::vector<double> strain; ///< axial, monotonic from 0
   std::vector<Curve> curves;  ///< compared with the model
   double weight = 1;          ///< of its log likelihood
   bool held_out = false;      ///< predicted, not fitted

@@ -17,7 +17,7 @@ namespace {
 constexpr double difference_step = 1e-3;   // of y, and of u over its range
 constexpr double first_model_error = 0.05; // of the peak, where it is free
 constexpr int refinements = 4;
-constexpr double least_gain = 1e-6; // of the cost by one iteration; less, three times in a row, is the end
+constexpr double least_gain = 1e-6; // of the cost, relative, by one iteration; three smaller ones end a search
 
 struct Box {
   Eigen::VectorXd middle, half; ///< of the unknowns of the material
@@ -27,7 +27,7 @@ struct Box {
       out[d] = middle[d] + half[d] * std::sin(gsl_vector_get(y, d));
     return out;
   }
-  /// Not nearer to a bound than a thousandth of the width: the sine is level there, and the search would stay.
+  /// Kept off the bounds, where the slope of the sine vanishes and a search could not leave.
   double y(double u, Eigen::Index d) const {
     return std::asin(std::clamp((u - middle[d]) / half[d], -0.998, 0.998));
   }
@@ -43,11 +43,11 @@ Box box_of(const Fit& fit) {
   return box;
 }
 
-/// What GSL's callbacks need.
+/// Data of GSL's callbacks.
 struct Problem {
   const Objective& objective;
   Box box;
-  Eigen::VectorXd full; ///< holds the unknowns that are not searched
+  Eigen::VectorXd full; ///< all unknowns; those that are not searched keep these values
 };
 
 int residual_callback(const gsl_vector* y, void* data, gsl_vector* f) {
@@ -75,24 +75,24 @@ int jacobian_callback(const gsl_vector* y, void* data, gsl_matrix* J) {
   return GSL_SUCCESS;
 }
 
-Search search_from(const Objective& objective, const Eigen::VectorXd& start) {
+LeastSquaresSearch search_from(const Objective& objective, const Eigen::VectorXd& start) {
   Problem problem{objective, box_of(objective.fit), start};
   const std::size_t d = problem.box.middle.size(), n = objective.residual_count();
   gsl_multifit_nlinear_fdf fdf{};
   fdf.f = residual_callback;
   fdf.df = jacobian_callback;
-  // GSL wants as many rows as unknowns; rows beyond those of the objective are zero.
+  // GSL requires at least as many rows as unknowns; those beyond the objective's are zero.
   fdf.n = std::max(n, d);
   fdf.p = d;
   fdf.params = &problem;
   auto options = gsl_multifit_nlinear_default_parameters();
   options.trs = gsl_multifit_nlinear_trs_lm;
-  options.solver = gsl_multifit_nlinear_solver_svd; // for Jacobians that lack rank
+  options.solver = gsl_multifit_nlinear_solver_svd; // for Jacobians without full rank
   gsl_multifit_nlinear_workspace* w =
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &options, fdf.n, fdf.p);
   gsl_vector* y = gsl_vector_alloc(d);
   for (std::size_t k = 0; k < d; ++k) gsl_vector_set(y, k, problem.box.y(start[k], k));
-  Search out;
+  LeastSquaresSearch out;
   out.start = problem.box.u(start, y);
   gsl_multifit_nlinear_init(y, &fdf, w);
   const auto cost = [&] {
@@ -101,7 +101,7 @@ Search search_from(const Objective& objective, const Eigen::VectorXd& start) {
     return 0.5 * norm;
   };
   out.start_cost = cost();
-  int reason = 0, idle = 0; // iterations in a row that gained next to nothing
+  int reason = 0, idle = 0; // idle: iterations in a row that gained less than least_gain
   double before = out.start_cost;
   while (out.iterations < objective.fit.search.iterations && !out.converged) {
     const int status = gsl_multifit_nlinear_iterate(w);
@@ -183,26 +183,28 @@ Eigen::MatrixXd spread_points(const std::vector<FreeParameter>& unknowns, int co
   return out;
 }
 
-BestFit least_squares(Objective& objective, const std::function<void(const std::string&)>& tell) {
-  gsl_set_error_handler_off(); // results say how a search ended
-  const auto say = [&](const std::string& line) {
-    if (tell) tell(line);
-  };
+BestFit least_squares(Objective& objective, const std::function<void(const std::string&)>& progress) {
+  gsl_set_error_handler_off(); // return values say how a search ended
   BestFit out;
   const auto starts = starting_points(objective);
   out.searches.resize(starts.size());
   std::size_t done = 0;
+  const auto report = [&](std::size_t k) {
+    ++done;
+    if (progress)
+      progress(fmt::format("search {} of {}: half sum of squares {:.4g} -> {:.4g} in {} iterations", done,
+                           starts.size(), out.searches[k].start_cost, out.searches[k].cost,
+                           out.searches[k].iterations));
+  };
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t k = 0; k < starts.size(); ++k) {
     out.searches[k] = search_from(objective, starts[k]);
 #pragma omp critical
-    say(fmt::format("search {} of {}: half sum of squares {:.4g} -> {:.4g} in {} iterations", ++done,
-                    starts.size(), out.searches[k].start_cost, out.searches[k].cost,
-                    out.searches[k].iterations));
+    report(k);
   }
   std::stable_sort(out.searches.begin(), out.searches.end(),
-                   [](const Search& a, const Search& b) { return a.cost < b.cost; });
-  const Search& first = out.searches.front();
+                   [](const LeastSquaresSearch& a, const LeastSquaresSearch& b) { return a.cost < b.cost; });
+  const LeastSquaresSearch& first = out.searches.front();
   Eigen::VectorXd u = first.end;
   for (int k = 0; k < refinements; ++k) {
     objective.set_errors(objective.predict(u));

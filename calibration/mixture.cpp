@@ -9,14 +9,14 @@
 namespace calibration {
 namespace {
 
-constexpr double freedom = 8; ///< of Student's t: tails heavier than those of most posteriors
-constexpr double wide_weight = 0.1, wide_scale = 1.5; ///< of a component that covers all points once more
+constexpr double freedom = 8; ///< of Student's t: heavier tails than most posteriors have
+constexpr double wide_weight = 0.1, wide_scale = 1.5; ///< of one more component, which covers all points
 constexpr int most_iterations = 60;                   ///< of expectation maximisation
-constexpr double enough = 1e-3;                       ///< gain of mean log likelihood that ends them
+constexpr double least_gain = 1e-3; ///< of the log likelihood per point; a smaller gain ends the iterations
 
-// Products are taken by lazyProduct: Eigen's blocked product may divide its sums by the number of threads.
+// Products are taken by lazyProduct: the order of sums in Eigen's blocked product may depend on the number of threads.
 
-/// A mixture of normal densities in the course of its fit.
+/// A mixture of normal densities while it is fitted.
 struct NormalMixture {
   std::vector<double> weight;
   std::vector<Eigen::VectorXd> centre;
@@ -41,9 +41,9 @@ double half_log_determinant(const Eigen::MatrixXd& factor) {
   return factor.diagonal().array().log().sum();
 }
 
-/// Centres far from each other: each is drawn with probability as its squared distance from the others
-/// (Arthur and Vassilvitskii 2007).
-NormalMixture spread_start(const Eigen::MatrixXd& points, const Eigen::MatrixXd& pooled, int components,
+/// Start with centres far from each other: each is a point drawn with a probability proportional to its squared distance
+/// from the nearest earlier centre (k-means++, Arthur and Vassilvitskii 2007).
+NormalMixture distant_centres(const Eigen::MatrixXd& points, const Eigen::MatrixXd& pooled, int components,
                            RandomStream& random) {
   NormalMixture m;
   const Eigen::LLT<Eigen::MatrixXd> factor(pooled);
@@ -84,11 +84,11 @@ Eigen::MatrixXd memberships(NormalMixture& m, const Eigen::MatrixXd& points) {
   return part.array().colwise() / sum.array();
 }
 
-/// Weights, centres and covariances from the memberships. Covariances lean on the pooled one by the weight of
-/// d + 2 points (Fraley and Raftery 2007), so that no component shrinks to a point.
+/// Weights, centres and covariances from the memberships. The pooled covariance is a prior with the weight of d + 2 points
+/// (Fraley and Raftery 2007), which keeps components from collapsing to a point.
 void maximise(NormalMixture& m, const Eigen::MatrixXd& points, const Eigen::MatrixXd& pooled,
               const Eigen::MatrixXd& part) {
-  const double lean = double(points.rows()) + 2;
+  const double prior_points = double(points.rows()) + 2;
   const Eigen::MatrixXd prior = pooled / std::pow(m.size(), 2.0 / double(points.rows()));
   for (int k = 0; k < m.size(); ++k) {
     const double count = part.col(k).sum();
@@ -96,18 +96,18 @@ void maximise(NormalMixture& m, const Eigen::MatrixXd& points, const Eigen::Matr
     m.centre[k] = points.lazyProduct(part.col(k)) / count;
     const Eigen::MatrixXd away = points.colwise() - m.centre[k];
     const Eigen::MatrixXd weighted = away * part.col(k).asDiagonal();
-    m.covariance[k] = (weighted.lazyProduct(away.transpose()) + lean * prior) / (count + lean);
+    m.covariance[k] = (weighted.lazyProduct(away.transpose()) + prior_points * prior) / (count + prior_points);
   }
 }
 
 NormalMixture fit_normal(const Eigen::MatrixXd& points, const Eigen::MatrixXd& pooled, int components,
                          RandomStream& random) {
-  NormalMixture m = spread_start(points, pooled, components, random);
+  NormalMixture m = distant_centres(points, pooled, components, random);
   const double fewest = std::max(5.0 * double(points.rows() + 1), 0.02 * double(points.cols()));
   double before = 0;
   for (int i = 0; i < most_iterations; ++i) {
     const Eigen::MatrixXd part = memberships(m, points);
-    if (i > 0 && m.log_likelihood - before < enough * double(points.cols())) break;
+    if (i > 0 && m.log_likelihood - before < least_gain * double(points.cols())) break;
     before = m.log_likelihood;
     maximise(m, points, pooled, part);
     for (int k = m.size() - 1; k >= 0 && m.size() > 1; --k)
@@ -122,7 +122,7 @@ double information_criterion(const NormalMixture& m, const Eigen::MatrixXd& poin
   return parameters * std::log(double(points.cols())) - 2 * m.log_likelihood;
 }
 
-StudentMixture student(const NormalMixture& normal) {
+StudentMixture student_mixture(const NormalMixture& normal) {
   StudentMixture m;
   double sum = 0;
   for (const double w : normal.weight) sum += w;
@@ -171,13 +171,13 @@ Eigen::VectorXd StudentMixture::draw(RandomStream& random) const {
 StudentMixture fit_mixture(const Eigen::Ref<const Eigen::MatrixXd>& points, int most, RandomStream& random) {
   const Eigen::MatrixXd pooled = covariance_of(points);
   const Eigen::VectorXd scale = pooled.diagonal().cwiseSqrt();
-  const bool flat = !(scale.minCoeff() > 0) ||
+  const bool in_subspace = !(scale.minCoeff() > 0) ||
                     (scale.cwiseInverse().asDiagonal() * pooled * scale.cwiseInverse().asDiagonal())
                             .eval()
                             .selfadjointView<Eigen::Lower>()
                             .eigenvalues()
                             .minCoeff() < 1e-13;
-  if (flat) throw std::runtime_error("points of the sampler lie in a subspace");
+  if (in_subspace) throw std::runtime_error("points of the sampler lie in a subspace");
   NormalMixture best = fit_normal(points, pooled, 1, random);
   for (int k = 2, worse = 0; k <= most && worse < 2; ++k) {
     NormalMixture next = fit_normal(points, pooled, k, random);
@@ -189,7 +189,7 @@ StudentMixture fit_mixture(const Eigen::Ref<const Eigen::MatrixXd>& points, int 
   best.weight.push_back(wide_weight / (1 - wide_weight));
   best.centre.push_back(points.rowwise().mean());
   best.covariance.push_back(wide_scale * wide_scale * pooled);
-  return student(best);
+  return student_mixture(best);
 }
 
 } // namespace calibration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mixture of multivariate Student-t densities fitted to points: what the independent move proposes.
+// A mixture of multivariate Student-t densities fitted to points: the proposal density of the independent move.
 #pragma once
 #include "calibration/random_stream.hpp"
 #include <Eigen/Core>
@@ -20,8 +20,8 @@ struct StudentMixture {
   Eigen::VectorXd draw(RandomStream& random) const;
 };
 
-/// Fits one to `most` components to the columns of `points` by expectation maximisation; their number is the one
-/// of the smallest Bayesian information criterion. Throws std::runtime_error if the points lie in a subspace.
+/// Fits one to `most` components to the columns of `points` by expectation maximisation; the number of components has
+/// the smallest Bayesian information criterion. Throws std::runtime_error if the points lie in a subspace.
 StudentMixture fit_mixture(const Eigen::Ref<const Eigen::MatrixXd>& points, int most, RandomStream& random);
 
 } // namespace calibration

@@ -8,7 +8,7 @@
 namespace calibration {
 namespace {
 
-/// Mean over the rows near each one; a curve without most of its noise.
+/// Running mean over up to `reach` rows on both sides, which removes most of the noise.
 std::vector<double> smoothed(const std::vector<double>& values, long reach) {
   const long n = long(values.size());
   std::vector<double> out(n);
@@ -25,8 +25,8 @@ double largest_magnitude(const std::vector<double>& values) {
   return peak;
 }
 
-/// Position of each row along its curve. By arc: strain and value over their ranges; nodes are means of neighbouring
-/// rows, about 25 of them: noise must not count as length, nor outliers draw weight.
+/// Position of each row along its curve. By arc: the length of the curve of value over strain, each divided by its range,
+/// through about 25 means of neighbouring rows, so that noise and outliers do not lengthen it.
 std::vector<double> positions(const LabTest& test, const std::vector<double>& values, Weighting by) {
   const long n = long(values.size());
   std::vector<double> at(n);
@@ -55,7 +55,7 @@ std::vector<double> positions(const LabTest& test, const std::vector<double>& va
   return at;
 }
 
-/// Part of the length that belongs to each row: half of the way to its neighbours.
+/// Part of the length that belongs to each row: half of the distance between its neighbours.
 std::vector<double> shares(const std::vector<double>& at) {
   const std::size_t n = at.size();
   std::vector<double> out(n, 1.0);
@@ -70,13 +70,14 @@ std::vector<double> shares(const std::vector<double>& at) {
   return out;
 }
 
-double kish(const std::vector<double>& share) {
+/// Kish's effective number of rows.
+double effective_rows(const std::vector<double>& share) {
   double squares = 0;
   for (double s : share) squares += s * s;
   return 1 / squares;
 }
 
-WeighedCurve weighed(const Fit& fit, std::size_t test, const Curve& curve) {
+WeighedCurve weighed_curve(const Fit& fit, std::size_t test, const Curve& curve) {
   const auto& of = fit.tests[test];
   WeighedCurve c;
   c.test = test;
@@ -84,7 +85,7 @@ WeighedCurve weighed(const Fit& fit, std::size_t test, const Curve& curve) {
   c.measured = curve.values;
   c.share = shares(positions(of, curve.values, fit.weighting));
   c.peak = std::max(largest_magnitude(smoothed(curve.values, long(curve.values.size()) / 40)), 1e-300);
-  c.independent_rows = kish(c.share);
+  c.independent_rows = effective_rows(c.share);
   c.weight = of.weight * fit.errors[std::size_t(curve.measure)].weight;
   return c;
 }
@@ -96,7 +97,7 @@ Objective::Objective(const Fit& from) : fit(from), pool(std::make_unique<Pool>()
     for (std::size_t t = 0; t < fit.tests.size(); ++t)
       if (fit.tests[t].held_out == held_out)
         for (const auto& curve : fit.tests[t].curves) {
-          curves.push_back(weighed(fit, t, curve));
+          curves.push_back(weighed_curve(fit, t, curve));
           curves.back().first_row = fitted_rows;
           if (!held_out) fitted_rows += curve.values.size();
         }
@@ -132,7 +133,7 @@ double Objective::model_error(const WeighedCurve& curve, const Eigen::VectorXd& 
   return curve.peak * (e.free_model < 0 ? e.model : fit.unknowns[e.free_model].value(u[e.free_model]));
 }
 
-template <class Use> void Objective::simulated(const Eigen::VectorXd& u, const Use& use) const {
+template <class Use> void Objective::with_paths(const Eigen::VectorXd& u, const Use& use) const {
   std::unique_ptr<Simulator> simulator;
   {
     const std::lock_guard lock(pool->mutex);
@@ -153,7 +154,7 @@ template <class Use> void Objective::simulated(const Eigen::VectorXd& u, const U
 
 std::vector<std::vector<double>> Objective::predict(const Eigen::VectorXd& u) const {
   std::vector<std::vector<double>> out;
-  simulated(u, [&](std::span<const Path> paths) {
+  with_paths(u, [&](std::span<const Path> paths) {
     for (const auto& c : curves) {
       const auto& test = fit.tests[c.test];
       std::vector<double> values(test.strain.size(), std::numeric_limits<double>::quiet_NaN());
@@ -175,7 +176,7 @@ Eigen::MatrixXd Objective::residuals(const Eigen::Ref<const Eigen::MatrixXd>& po
   for (Eigen::Index j = 0; j < points.cols(); ++j) {
     const Eigen::VectorXd u = points.col(j);
     std::vector<double> values;
-    simulated(u, [&](std::span<const Path> paths) {
+    with_paths(u, [&](std::span<const Path> paths) {
       for (std::size_t k = 0; k < fitted_curves; ++k) {
         const auto& c = curves[k];
         const auto& test = fit.tests[c.test];
@@ -237,10 +238,11 @@ void Objective::estimate_correlation(const Eigen::VectorXd& u) {
       square += z(i) * z(i);
       if (i > 0) product += z(i) * z(i - 1);
     }
-    const double all = kish(c.share);
+    const double all = effective_rows(c.share);
     c.independent_rows = all;
     const double correlation = square > 0 ? product / square : 0;
-    // Below two standard errors it is none. First-order autoregression: the sum of n rows holds n (1-r)/(1+r).
+    // Less than two standard errors count as no correlation. The mean of n rows of a first-order autoregression varies
+    // like that of n (1 - r) / (1 + r) independent ones.
     if (std::isfinite(correlation) && correlation > 2 / std::sqrt(double(n)))
       c.independent_rows = std::max(all * (1 - correlation) / (1 + correlation), std::min(all, 2.0));
   }
@@ -251,8 +253,7 @@ Eigen::VectorXd Objective::estimate_model_error(Eigen::VectorXd u) const {
   for (const auto& e : fit.errors) {
     if (e.free_model < 0) continue;
     const auto& unknown = fit.unknowns[e.free_model];
-    double above = 0,
-           counted = 0; // what squares of residuals hold beyond the error of measurement, over peak squared
+    double excess = 0, counted = 0; // variance of residuals beyond that of the measurement, over peak squared
     for (std::size_t k = 0; k < fitted_curves; ++k) {
       const auto& c = curves[k];
       if (c.measure != unknown.measure) continue;
@@ -261,10 +262,10 @@ Eigen::VectorXd Objective::estimate_model_error(Eigen::VectorXd u) const {
         const double miss = std::isfinite(values[k][i]) ? c.measured[i] - values[k][i] : c.peak;
         mean += c.share[i] * (miss * miss - c.error[i] * c.error[i]) / (c.peak * c.peak);
       }
-      above += c.weight * c.independent_rows * mean;
+      excess += c.weight * c.independent_rows * mean;
       counted += c.weight * c.independent_rows;
     }
-    const double size = std::sqrt(std::max(above / std::max(counted, 1e-300), 0.0));
+    const double size = std::sqrt(std::max(excess / std::max(counted, 1e-300), 0.0));
     u[e.free_model] = unknown.coordinate(std::clamp(size, unknown.lower * 1.01, unknown.upper * 0.99));
   }
   return u;

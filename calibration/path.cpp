@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulated path shows of what was measured, at its rows and between them.
-#include "calibration/simulation.hpp"
+// Measured quantities at the rows of a simulated path, and between them.
+#include "calibration/path.hpp"
 #include <cmath>
 
 namespace calibration {
+
+void Path::clear() {
+  for (auto* column : {&axial_strain, &volumetric_strain, &axial_stress, &radial_stress}) column->clear();
+  complete = false;
+}
+
+void Path::add(const drivers::AxisymmetricTensor& stress, const drivers::AxisymmetricTensor& strain) {
+  axial_strain.push_back(strain.axial);
+  volumetric_strain.push_back(strain.trace());
+  axial_stress.push_back(stress.axial);
+  radial_stress.push_back(stress.radial);
+}
 
 double Path::value(Measure measure, std::size_t row, const Specimen& specimen) const {
   const double axial = axial_stress[row], radial = radial_stress[row];
@@ -24,7 +36,7 @@ double Path::value(Measure measure, std::size_t row, const Specimen& specimen) c
   case Measure::void_ratio:
     return (1 + specimen.void_ratio) * std::exp(-volumetric_strain[row]) - 1;
   case Measure::pore_pressure:
-    return specimen.radial_stress - radial; // the cell's total stress is held
+    return specimen.radial_stress - radial; // as the total radial stress, the cell pressure, is constant
   }
   return 0;
 }
@@ -37,7 +49,7 @@ std::size_t interpolate(const Path& path, const Specimen& specimen, Measure meas
   double y[4] = {}, slope[2] = {};
   std::size_t prepared = rows;
   const auto value = [&](std::size_t r) { return path.value(measure, r, specimen); };
-  // Slope of the parabola through three rows, at the middle one.
+  // Slope, at the middle one of three rows, of the parabola through them.
   const auto middle_slope = [&](std::size_t r) {
     const double a = at[r] - at[r - 1], b = at[r + 1] - at[r];
     return ((value(r + 1) - value(r)) * a / b + (value(r) - value(r - 1)) * b / a) / (a + b);
@@ -45,7 +57,7 @@ std::size_t interpolate(const Path& path, const Specimen& specimen, Measure meas
   for (std::size_t i = 0; i < strain.size(); ++i) {
     while (row + 1 < rows && std::abs(at[row + 1]) < std::abs(strain[i])) ++row;
     if (row + 1 >= rows) {
-      if (rows > 0 && strain[i] == at[0]) { // nothing but the start
+      if (rows > 0 && strain[i] == at[0]) { // the path ends at its start
         values[i] = value(0);
         continue;
       }

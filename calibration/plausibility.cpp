@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What no test on sand can show: the signs of swapped columns, forgotten units and dead sensors.
+// Finds curves that no test on sand can have given: swapped columns, wrong units, dead sensors.
 #include "calibration/test_file.hpp"
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,7 @@ struct Checks {
     const auto& values = raw.given[std::size_t(m)];
     return values ? &*values : nullptr;
   }
-  double initial_mean_stress() const { return (specimen.axial_stress + 2 * specimen.radial_stress) / 3; }
-  bool shears() const { return specimen.kind != TestKind::oedometric; }
+  bool shears() const { return !specimen.kind->holds("radial_strain"); }
 
   void strains() const {
     if (raw.strain.size() < 2) fail("fewer than two rows");
@@ -46,12 +45,12 @@ struct Checks {
       }
   }
 
-  /// Largest magnitude of q/p, where q is measured.
+  /// Range of q/p, where it follows from the columns.
   void stress_ratios() const {
     const auto *q = given(Measure::deviatoric_stress), *p = given(Measure::mean_stress),
                *ratio = given(Measure::stress_ratio), *axial = given(Measure::axial_stress),
                *radial = given(Measure::radial_stress);
-    if (specimen.kind == TestKind::oedometric) return;
+    if (specimen.kind->holds("radial_strain")) return;
     double most = 0, least = 0;
     bool known = false;
     for (std::size_t i = 0; i < raw.strain.size(); ++i) {
@@ -63,12 +62,12 @@ struct Checks {
         eta = (*q)[i] / (*p)[i];
       else if (axial && radial)
         eta = 3 * ((*axial)[i] - (*radial)[i]) / ((*axial)[i] + 2 * (*radial)[i]);
-      else if (axial && specimen.kind == TestKind::triaxial_drained)
+      else if (axial && specimen.kind->holds("radial_stress"))
         eta = 3 * ((*axial)[i] - cell) / ((*axial)[i] + 2 * cell);
-      else if (q && specimen.kind == TestKind::triaxial_drained)
+      else if (q && specimen.kind->holds("radial_stress"))
         eta = (*q)[i] / (cell + (*q)[i] / 3);
-      else if (q && specimen.kind == TestKind::triaxial_constant_p)
-        eta = (*q)[i] / initial_mean_stress();
+      else if (q && specimen.kind->holds("mean_stress"))
+        eta = (*q)[i] / specimen.mean_stress();
       else
         return;
       known = true;
@@ -76,10 +75,10 @@ struct Checks {
       least = std::min(least, eta);
       if (!std::isfinite(eta)) fail("the mean stress is 0 in a row");
     }
-    // 3 and -1.5: one principal stress is 0. Drained at 70 degrees in compression: 2.74.
+    // At 3 and -1.5 a principal stress is 0. A friction angle of 70 degrees in compression: 2.74.
     if (known && (most > 2.75 || least < -1.45))
       fail(fmt::format(
-          "a stress ratio q/p of {:.3g} is beyond every friction: check the columns, the units of stress and "
+          "a stress ratio q/p of {:.3g} is beyond any friction angle: check the columns, the units of stress and "
           "the confining stress of {:g} Pa",
           most > 2.75 ? most : least, specimen.radial_stress));
     if (known && std::max(most, -least) < 0.05)
@@ -89,23 +88,23 @@ struct Checks {
           std::max(most, -least), specimen.radial_stress));
   }
 
-  /// The first row of a stress against the stress declared: it is still near it.
+  /// Whether stresses begin near the declared ones.
   void declared_stress() const {
     const auto compare = [&](Measure m, double declared, bool held) {
       const auto* values = given(m);
       if (!values) return;
       const double first = values->front();
-      const double allowed = held ? 0.2 : 2; // stiff sand may have moved far in the first row
+      const double allowed = held ? 0.2 : 2; // relative; the first row of a stiff sand may be far from the start
       if (!(first > declared * (1 - std::min(allowed, 0.8)) && first < declared * (1 + allowed)))
         fail(fmt::format("{} begins at {:.4g} Pa where {:.4g} Pa is declared: check units and stress",
                          info(m).key, first, declared));
     };
-    compare(Measure::mean_stress, initial_mean_stress(), specimen.kind == TestKind::triaxial_constant_p);
-    compare(Measure::radial_stress, specimen.radial_stress, specimen.kind == TestKind::triaxial_drained);
+    compare(Measure::mean_stress, specimen.mean_stress(), specimen.kind->holds("mean_stress"));
+    compare(Measure::radial_stress, specimen.radial_stress, specimen.kind->holds("radial_stress"));
     compare(Measure::axial_stress, specimen.axial_stress, false);
-    // q and p of a drained test belong together: dq = 3 dp.
+    // In a drained test dq = 3 dp.
     const auto *q = given(Measure::deviatoric_stress), *p = given(Measure::mean_stress);
-    if (q && p && specimen.kind == TestKind::triaxial_drained)
+    if (q && p && specimen.kind->holds("radial_stress"))
       for (std::size_t i = 0; i < q->size(); ++i)
         if (const double cell = (*p)[i] - (*q)[i] / 3; std::abs(cell / specimen.radial_stress - 1) > 0.2)
           fail(fmt::format("p - q/3 is {:.4g} Pa where a confining stress of {:.4g} Pa is declared: check "
@@ -124,7 +123,7 @@ struct Checks {
     if (!e) return;
     for (double v : *e)
       if (!(v > 0.1 && v < 1.9))
-        fail(fmt::format("a void ratio of {:.3g}: no sand has it; a porosity, or per cent?", v));
+        fail(fmt::format("a void ratio of {:.3g} is impossible for sand: is it a porosity, or in per cent?", v));
     if (std::abs(e->front() - specimen.void_ratio) > 0.02 + 0.5 * std::abs(raw.strain.front()))
       fail(fmt::format("the void ratio begins at {:.4g} where {:.4g} is declared", e->front(),
                        specimen.void_ratio));
@@ -133,7 +132,7 @@ struct Checks {
         if (const double follows = (1 + specimen.void_ratio) * std::exp(-(*volume)[i]) - 1;
             std::abs(follows - (*e)[i]) > 0.03)
           fail(fmt::format(
-              "a volumetric strain of {:.3g} makes a void ratio of {:.3f}, the curve has {:.3f}: check its "
+              "a volumetric strain of {:.3g} means a void ratio of {:.3f}, the curve has {:.3f}: check its "
               "sign and unit",
               (*volume)[i], follows, (*e)[i]));
   }
@@ -142,12 +141,12 @@ struct Checks {
     for (const auto& curve : compared) {
       const auto [low, high] = std::minmax_element(curve.values.begin(), curve.values.end());
       const bool held =
-          (curve.measure == Measure::radial_stress && specimen.kind == TestKind::triaxial_drained) ||
-          (curve.measure == Measure::mean_stress && specimen.kind == TestKind::triaxial_constant_p) ||
+          (curve.measure == Measure::radial_stress && specimen.kind->holds("radial_stress")) ||
+          (curve.measure == Measure::mean_stress && specimen.kind->holds("mean_stress")) ||
           ((curve.measure == Measure::volumetric_strain || curve.measure == Measure::void_ratio) &&
-           specimen.kind == TestKind::triaxial_undrained);
+           specimen.kind->holds("volumetric_strain"));
       if (held)
-        fail(fmt::format("{} is held in this kind of test: it cannot be compared", info(curve.measure).key));
+        fail(fmt::format("{} is held constant in this kind of test: it cannot be compared", info(curve.measure).key));
       if (*high - *low <= 1e-3 * std::max(std::abs(*high), std::abs(*low)) || *high == *low)
         fail(fmt::format("{} is constant, {:.4g}, over the whole test: a dead sensor, or the wrong column",
                          info(curve.measure).key, *low));

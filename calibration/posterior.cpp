@@ -19,14 +19,14 @@ Stream new_stream(std::uint64_t seed) {
   return s;
 }
 
-/// Points about the best fit, three times as wide as its covariance and not wider than the bounds; free errors of the
-/// model within a factor of two or so.
-Eigen::MatrixXd first_points(const Objective& objective, const BestFit& best, const Identifiability& known,
+/// Points about the best fit, within the bounds: normal with three times the standard deviations of its covariance, and
+/// with a deviation of 0.7 in the logarithm of model errors.
+Eigen::MatrixXd first_points(const Objective& objective, const BestFit& best, const Identifiability& identifiability,
                              const SamplingOptions& options) {
   const auto& unknowns = objective.fit.unknowns;
   const Eigen::Index all = Eigen::Index(unknowns.size()), d = objective.fit.parameters();
   const int count = std::max(2 * options.walkers, int(10 * all));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(known.covariance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(identifiability.covariance);
   const Eigen::MatrixXd root =
       solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   auto stream = new_stream(options.seed + 7919);
@@ -37,8 +37,7 @@ Eigen::MatrixXd first_points(const Objective& objective, const BestFit& best, co
     Eigen::VectorXd u = best.best.end;
     u.head(d) += 3 * root * normal.head(d);
     u.tail(all - d) += 0.7 * normal.tail(all - d);
-    for (Eigen::Index i = 0; i < all;
-         ++i) { // back into the bounds by reflection, anywhere inside at the last
+    for (Eigen::Index i = 0; i < all; ++i) { // reflected at the bounds; if that does not help, uniform within them
       const double low = unknowns[i].lowest(), high = unknowns[i].highest();
       if (u[i] < low) u[i] = 2 * low - u[i];
       if (u[i] > high) u[i] = 2 * high - u[i];
@@ -49,7 +48,8 @@ Eigen::MatrixXd first_points(const Objective& objective, const BestFit& best, co
   return points;
 }
 
-void add(std::uint64_t& hash, const void* bytes, std::size_t count) { // FNV-1a
+/// FNV-1a.
+void add(std::uint64_t& hash, const void* bytes, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     hash = (hash ^ static_cast<const unsigned char*>(bytes)[i]) * 1099511628211ull;
 }
@@ -60,7 +60,7 @@ void add(std::uint64_t& hash, const std::vector<double>& values) {
   add(hash, values.data(), values.size() * sizeof(double));
 }
 
-/// One row of a band, from the model's values at the sets that were drawn.
+/// Adds the quantiles of one row: of the model's values at the samples drawn, and of these with errors added.
 void add_row(Band& band, std::vector<double>& model, std::vector<double>& measured) {
   const auto at = [](std::vector<double>& v, double q) {
     return gsl_stats_quantile_from_sorted_data(v.data(), 1, v.size(), q);
@@ -89,15 +89,16 @@ std::string fingerprint(const Objective& objective) {
   for (std::size_t k = 0; k < objective.fitted_curves; ++k) {
     const auto& c = objective.curves[k];
     const auto& s = fit.tests[c.test].specimen;
-    for (double v : {double(int(s.kind)), s.void_ratio, s.axial_stress, s.radial_stress,
-                     double(int(c.measure)), c.peak, c.independent_rows, c.weight})
+    add(hash, s.kind->name.data(), s.kind->name.size());
+    for (double v : {s.void_ratio, s.axial_stress, s.radial_stress, double(int(c.measure)), c.peak,
+                     c.independent_rows, c.weight})
       add(hash, v);
     for (const auto* v : {&fit.tests[c.test].strain, &c.measured, &c.share, &c.error}) add(hash, *v);
   }
   return fmt::format("{:016x}", hash);
 }
 
-Posterior sample_posterior(const Objective& objective, const BestFit& best, const Identifiability& known,
+Posterior sample_posterior(const Objective& objective, const BestFit& best, const Identifiability& identifiability,
                            const SamplingOptions& options, const ChainRun& run) {
   const auto& unknowns = objective.fit.unknowns;
   SamplerOptions sampler;
@@ -120,8 +121,8 @@ Posterior sample_posterior(const Objective& objective, const BestFit& best, cons
   checkpoint.fingerprint = fingerprint(objective);
   checkpoint.resume = run.resume;
   out.chain = sample([&](const auto& points) { return objective.log_posterior(points); },
-                     first_points(objective, best, known, options), sampler, checkpoint, run.progress);
-  Chain values = out.chain; // diagnosed as values
+                     first_points(objective, best, identifiability, options), sampler, checkpoint, run.progress);
+  Chain values = out.chain; // values in place of coordinates, which the diagnosis refers to
   const std::size_t d = unknowns.size();
   for (std::size_t i = 0; i < values.samples.size(); ++i)
     values.samples[i] = unknowns[i % d].value(values.samples[i]);

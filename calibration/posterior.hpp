@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Bayesian part of a fit: samples of the posterior, and what they predict for the curves, those held out included.
+// The Bayesian part of a fit: samples of the posterior and their predictions for all curves, those held out included.
 #pragma once
 #include "calibration/diagnostics.hpp"
 #include "calibration/identifiability.hpp"
@@ -9,9 +9,9 @@ namespace calibration {
 
 /// Quantiles of 5, 50 and 95 % over the rows of one curve.
 struct Band {
-  std::vector<double> model_lower, model_median, model_upper; ///< of the model's curve: parameters alone
-  std::vector<double> lower, upper;                           ///< of a measured value: with both errors
-  double coverage = 0; ///< part of the measured values inside the latter
+  std::vector<double> model_lower, model_median, model_upper; ///< of the model's curve, by the parameters alone
+  std::vector<double> lower, upper; ///< of a measured value, with the errors of model and measurement
+  double coverage = 0;              ///< part of the measured values between lower and upper
 };
 
 struct Posterior {
@@ -20,7 +20,7 @@ struct Posterior {
   Eigen::MatrixXd values;         ///< samples as values, not coordinates: (unknowns, samples)
   Diagnosis diagnosis;            ///< of the values
   std::vector<Band> bands;        ///< one for each curve of the objective
-  std::size_t incomplete = 0;     ///< predictive sets in which a test failed; not in the bands
+  std::size_t incomplete = 0;     ///< samples drawn for the bands in which a test failed; left out
 };
 
 struct ChainRun {
@@ -30,13 +30,13 @@ struct ChainRun {
 };
 
 /// Samples about the best fit, whose covariance gives the first points. Throws std::runtime_error.
-Posterior sample_posterior(const Objective& objective, const BestFit& best, const Identifiability& known,
+Posterior sample_posterior(const Objective& objective, const BestFit& best, const Identifiability& identifiability,
                            const SamplingOptions& options, const ChainRun& run = {});
 
 /// Bands over all curves.
 void predict_bands(const Objective& objective, const SamplingOptions& options, Posterior& posterior);
 
-/// Hash of all that the posterior depends on.
+/// Hash of everything the posterior depends on.
 std::string fingerprint(const Objective& objective);
 
 } // namespace calibration

@@ -21,19 +21,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One set of parameters and what became of it.
-struct Set {
+/// One set of parameters and the result of its run.
+struct ParameterSet {
   std::size_t row = 0; ///< of the samples
   drivers::StudyRun run;
   std::optional<drivers::Deposit> deposit; ///< none: the run failed
   drivers::Outline history{};              ///< height, m, over time, s
 };
 
-std::vector<Set> drawn_sets(const PropagateOptions& options, const StoredPosterior& posterior) {
-  std::vector<Set> sets;
+std::vector<ParameterSet> drawn_sets(const PropagateOptions& options, const StoredPosterior& posterior) {
+  std::vector<ParameterSet> sets;
   for (const auto row : draw_rows(posterior, options.sets, options.seed)) {
     const auto name = fmt::format("{:03}", sets.size() + 1);
-    Set set{row, {name, options.scene, options.study.folder + "/sets/" + name, options.settings}, {}};
+    ParameterSet set{row, {name, options.scene, options.study.folder + "/sets/" + name, options.settings}, {}};
     for (std::size_t k = 0; k < posterior.names.size(); ++k)
       set.run.settings.push_back(
           fmt::format("material.{}={}", posterior.names[k], drivers::toml_number(posterior.samples[row][k])));
@@ -52,8 +52,8 @@ drivers::Outline history_of(const fs::path& result) {
   return history;
 }
 
-/// Runs all sets; the failed ones stay without a deposit and are named.
-void run_sets(std::vector<Set>& sets, const drivers::StudyOptions& study) {
+/// Runs all sets. Failed ones are reported and stay without a deposit.
+void run_sets(std::vector<ParameterSet>& sets, const drivers::StudyOptions& study) {
   std::vector<drivers::StudyRun> runs;
   for (const auto& set : sets) runs.push_back(set.run);
   try {
@@ -82,14 +82,14 @@ Quantiles quantiles(std::vector<double> values) {
   return {at(0.05), at(0.5), at(0.95)};
 }
 
-std::vector<double> over_sets(const std::vector<Set>& sets, const std::function<double(const Set&)>& value) {
+std::vector<double> over_sets(const std::vector<ParameterSet>& sets, const std::function<double(const ParameterSet&)>& value) {
   std::vector<double> values;
   for (const auto& set : sets)
     if (set.deposit) values.push_back(value(set));
   return values;
 }
 
-std::string sets_table(const std::vector<Set>& sets, const StoredPosterior& posterior) {
+std::string sets_table(const std::vector<ParameterSet>& sets, const StoredPosterior& posterior) {
   std::string text = "set,sample,failed," + drivers::joined(posterior.names, ",") + ",height,radius,rest_s\n";
   for (const auto& set : sets) {
     text += fmt::format("{},{},{:d}", set.run.name, set.row, !set.deposit);
@@ -108,33 +108,34 @@ std::string bands_table(const std::vector<std::pair<std::string, Quantiles>>& ba
   return text;
 }
 
-/// Bands of curves at `places`; a curve keeps its last value where `keep`, else it is 0 beyond its end.
-std::string curve_bands(const std::vector<Set>& sets, const std::string& header, double end, bool keep,
-                        const std::function<const drivers::Outline&(const Set&)>& curve) {
+/// Bands of curves at equally spaced places from 0 to `end`. Beyond its own end a curve keeps its last value if
+/// `keep_last`, otherwise it is 0.
+std::string curve_bands(const std::vector<ParameterSet>& sets, const std::string& header, double end, bool keep_last,
+                        const std::function<const drivers::Outline&(const ParameterSet&)>& curve) {
   constexpr int parts = 200;
   std::string text = header + ",lower_5,median,upper_95\n";
   for (int k = 0; k <= parts; ++k) {
     const double place = end * k / parts;
-    const auto q = quantiles(over_sets(sets, [&](const Set& set) {
+    const auto q = quantiles(over_sets(sets, [&](const ParameterSet& set) {
       const auto& c = curve(set);
-      return keep && place >= c.radii.back() ? c.heights.back() : c.at(place);
+      return keep_last && place >= c.radii.back() ? c.heights.back() : c.at(place);
     }));
     text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}\n", place, q.lower, q.median, q.upper);
   }
   return text;
 }
 
-void write_curves(const std::vector<Set>& sets, double radius, const fs::path& folder) {
-  const auto ends = over_sets(sets, [](const Set& s) { return s.history.radii.back(); });
-  const auto reaches = over_sets(sets, [](const Set& s) { return s.deposit->radius; });
+void write_curves(const std::vector<ParameterSet>& sets, double radius, const fs::path& folder) {
+  const auto ends = over_sets(sets, [](const ParameterSet& s) { return s.history.radii.back(); });
+  const auto reaches = over_sets(sets, [](const ParameterSet& s) { return s.deposit->radius; });
   const double end = *std::max_element(ends.begin(), ends.end());
   const double reach = 1.1 * radius * *std::max_element(reaches.begin(), reaches.end());
   host::write_whole(folder / "outline_bands.csv",
                     curve_bands(sets, "radius_m", reach, false,
-                                [](const Set& s) -> const drivers::Outline& { return s.deposit->outline; }));
+                                [](const ParameterSet& s) -> const drivers::Outline& { return s.deposit->outline; }));
   host::write_whole(folder / "height_bands.csv",
                     curve_bands(sets, "time_s", end, true,
-                                [](const Set& s) -> const drivers::Outline& { return s.history; }));
+                                [](const ParameterSet& s) -> const drivers::Outline& { return s.history; }));
 }
 
 void print_bands(const std::vector<std::pair<std::string, Quantiles>>& bands, std::size_t complete,
@@ -146,7 +147,7 @@ void print_bands(const std::vector<std::pair<std::string, Quantiles>>& bands, st
   fmt::print("results: {}\n", options.study.folder);
 }
 
-/// Remarks on parameters of the scene that no sample is near: perhaps another sand.
+/// Warns where a parameter of the scene is outside of all samples: the scene may be of another sand.
 void warn_of_other_sand(const host::Scene& scene, const StoredPosterior& posterior) {
   for (std::size_t k = 0; k < posterior.names.size(); ++k) {
     const auto& name = posterior.names[k];
@@ -168,19 +169,19 @@ void propagate(PropagateOptions options) {
   require_fit_for(scene, posterior);
   warn_of_other_sand(scene, posterior);
   if (!posterior.converged)
-    spdlog::warn("{}: its chain is not converged by the fit's own diagnosis", options.posterior);
+    spdlog::warn("{}: its chain has not converged, by the diagnosis of the fit", options.posterior);
   auto& folder = options.study.folder;
   if (folder.empty()) folder = scene.output_folder;
   auto sets = drawn_sets(options, posterior);
   run_sets(sets, options.study);
   host::write_whole(fs::path(folder) / "sets.csv", sets_table(sets, posterior));
-  const auto heights = over_sets(sets, [](const Set& s) { return s.deposit->height; });
+  const auto heights = over_sets(sets, [](const ParameterSet& s) { return s.deposit->height; });
   if (heights.size() < 2)
     throw std::runtime_error(
         fmt::format("{}: expected at least two sets to run to the end, found {}", folder, heights.size()));
   const std::vector<std::pair<std::string, Quantiles>> bands{
       {"h_f/r0", quantiles(heights)},
-      {"r_f/r0", quantiles(over_sets(sets, [](const Set& s) { return s.deposit->radius; }))}};
+      {"r_f/r0", quantiles(over_sets(sets, [](const ParameterSet& s) { return s.deposit->radius; }))}};
   host::write_whole(fs::path(folder) / "bands.csv", bands_table(bands));
   write_curves(sets, scene.column.radius, folder);
   drivers::report_study("posterior.py", options.study);

@@ -7,14 +7,13 @@
 namespace calibration {
 namespace {
 
-constexpr double jitter = 1e-3; ///< normal noise of a difference, in spreads: makes every point reachable
-constexpr double subset_moves = 0.2, subset_part = 0.3; ///< differences that change some dimensions; how many
-constexpr double short_moves = 0.3,
-                 short_factor = 0.2; ///< differences that are shortened: tails that are thin
+constexpr double jitter = 1e-3; ///< normal noise added to a difference, in spreads: makes every point reachable
+constexpr double subset_moves = 0.2, subset_part = 0.3; ///< part of the differences in a subset; part of dimensions in it
+constexpr double short_moves = 0.3, short_factor = 0.2; ///< part of the differences that are shortened, for thin tails
 constexpr int most_components = 10;  ///< of the mixture
 constexpr int most_fitted = 2000;    ///< points of the archive that the mixture is fitted to
 
-const auto any_of(const ProposalKernel& kernel, RandomStream& random) {
+const auto random_point(const ProposalKernel& kernel, RandomStream& random) {
   return kernel.archive.col(random.below(int(kernel.archive.cols())));
 }
 
@@ -31,15 +30,15 @@ Eigen::VectorXd difference(const ProposalKernel& kernel, const Eigen::VectorXd& 
   }
   const double shorter = random.uniform() < short_moves ? short_factor : 1;
   const double factor = shorter * 2.38 / std::sqrt(2 * changed.sum()) * std::exp(0.3 * random.normal());
-  const auto one = any_of(kernel, random), other = any_of(kernel, random);
+  const auto one = random_point(kernel, random), other = random_point(kernel, random);
   return from + changed.cwiseProduct(factor * (one - other) + noise);
 }
 
-/// x + z1 - z2 + noise in all dimensions: leads from one mode to another, ter Braak 2006 section 2.
+/// x + z1 - z2 + noise in all dimensions, which may lead from one mode to another: ter Braak 2006 section 2.
 Eigen::VectorXd mode_jump(const ProposalKernel& kernel, const Eigen::VectorXd& from, RandomStream& random) {
   Eigen::VectorXd noise(from.size());
   for (Eigen::Index i = 0; i < from.size(); ++i) noise(i) = jitter * kernel.spread(i) * random.normal();
-  const auto one = any_of(kernel, random), other = any_of(kernel, random);
+  const auto one = random_point(kernel, random), other = random_point(kernel, random);
   return from + one - other + noise;
 }
 
@@ -47,7 +46,7 @@ Eigen::VectorXd mode_jump(const ProposalKernel& kernel, const Eigen::VectorXd& f
 /// and the ratio (|x' - z| / |x - z|)^(d - 1) of eq. 4.
 Proposal snooker(const ProposalKernel& kernel, const Eigen::VectorXd& from, RandomStream& random) {
   const double factor = 1.2 + random.uniform();
-  const auto z = any_of(kernel, random), one = any_of(kernel, random), other = any_of(kernel, random);
+  const auto z = random_point(kernel, random), one = random_point(kernel, random), other = random_point(kernel, random);
   const Eigen::VectorXd line = from - z;
   const double before = line.norm();
   if (before == 0) return {Move::snooker, from, -std::numeric_limits<double>::infinity()};
@@ -62,7 +61,7 @@ Proposal independent(const ProposalKernel& kernel, const Eigen::VectorXd& from, 
   return p;
 }
 
-/// At most `most_fitted` columns at equal distances.
+/// At most `most_fitted` columns, evenly spaced.
 Eigen::MatrixXd thinned(const Eigen::MatrixXd& archive) {
   const Eigen::Index kept = std::min<Eigen::Index>(archive.cols(), most_fitted);
   Eigen::MatrixXd columns(archive.rows(), kept);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a walker jumps, given an archive of earlier points: the moves of calibration/SAMPLER.md.
+// Proposals of the next point of a walker from an archive of earlier points: the moves of calibration/SAMPLER.md.
 #pragma once
 #include "calibration/mixture.hpp"
 #include "calibration/random_stream.hpp"
@@ -11,7 +11,7 @@ namespace calibration {
 enum class Move { difference, mode_jump, snooker, independent };
 constexpr int moves = 4;
 
-/// Everything a proposal is drawn from. It does not change after burn-in.
+/// The data that proposals are drawn from; constant after burn-in.
 struct ProposalKernel {
   Eigen::MatrixXd archive; ///< (dimensions, points)
   Eigen::VectorXd spread;  ///< standard deviation of the archive in each dimension
@@ -25,7 +25,7 @@ struct Proposal {
   double log_ratio = 0; ///< log of backward over forward proposal density
 };
 
-/// Probability of each move: the better the independent move is accepted, the more often it is made.
+/// Probability of each move; that of the independent move increases with its acceptance.
 std::array<double, moves> move_weights(double independent_acceptance);
 
 /// Fits spread and mixture to the archive. Throws std::runtime_error if it lies in a subspace.

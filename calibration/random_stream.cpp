@@ -12,9 +12,9 @@ constexpr double two_to_26 = 67108864, two_to_53 = 9007199254740992;
 } // namespace
 
 RandomStream::RandomStream(std::uint64_t seed) : generator(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free) {
-  // GSL takes the lower 32 bits of a seed and reads 0 as its default; the upper half is worked in by stirring.
-  const std::uint64_t stirred = (seed + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  gsl_rng_set(generator.get(), (stirred >> 32 ^ stirred) & 0xffffffffu);
+  // GSL uses the lower 32 bits of a seed and replaces 0 by its default: the hash mixes the upper half in.
+  const std::uint64_t mixed = (seed + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  gsl_rng_set(generator.get(), (mixed >> 32 ^ mixed) & 0xffffffffu);
 }
 
 double RandomStream::uniform() {
@@ -41,7 +41,7 @@ std::vector<unsigned char> RandomStream::state() const {
 
 void RandomStream::restore(const std::vector<unsigned char>& state) {
   if (state.size() != gsl_rng_size(generator.get()))
-    throw std::runtime_error("the random state is not of this program's generator");
+    throw std::runtime_error("the stored state does not fit the random number generator of this program");
   std::copy(state.begin(), state.end(), static_cast<unsigned char*>(gsl_rng_state(generator.get())));
 }
 

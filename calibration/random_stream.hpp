@@ -17,9 +17,9 @@ public:
   double normal();            ///< mean 0, deviation 1
   double chi_squared(double); ///< of the given degrees of freedom
 
-  /// The state as GSL keeps it; the same stream goes on after `restore`, on the same kind of machine.
+  /// The state as GSL stores it; `restore` continues the same stream, on the same kind of machine.
   std::vector<unsigned char> state() const;
-  /// Throws std::runtime_error if the size is not that of a state.
+  /// Throws std::runtime_error if the size is wrong.
   void restore(const std::vector<unsigned char>& state);
 
 private:

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/report.hpp"
-#include "vumat/parameters.hpp"
+#include "host/files/whole_file.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace calibration {
 namespace {
 
-/// Residuals whose rms is beyond this many errors: the model does not describe the curves within them.
+/// Root mean square of the residuals, in standard deviations, above which the report warns of a curve.
 constexpr double largest_misfit = 1.5;
-/// Searches within this of the lowest half sum of squares count as the same optimum, relative and absolute.
+/// Searches count as ending at the best optimum within these of the lowest half sum of squares, relative and absolute.
 constexpr double same_cost_relative = 1e-3, same_cost = 0.01;
 
-/// "0.8 e_ref - 0.6 n_p" over the ranges; small weights are left out.
-std::string in_terms(const Combination& c, const std::vector<FreeParameter>& unknowns) {
+/// For instance "0.80 e_ref - 0.60 n_p"; weights below 0.15 are left out.
+std::string combination_text(const Combination& c, const std::vector<FreeParameter>& unknowns) {
   std::string out;
   for (Eigen::Index d = 0; d < c.weights.size(); ++d) {
     const double w = c.weights[d];
@@ -26,10 +25,18 @@ std::string in_terms(const Combination& c, const std::vector<FreeParameter>& unk
   return out;
 }
 
-/// Mean and one standard deviation to both sides, as values.
-std::string plus_minus(const FreeParameter& p, double u, double deviation) {
+/// Interval of 90 % of a normal distribution of the coordinate, cut off at the bounds, as values.
+std::string linear_interval(const FreeParameter& p, double u, double deviation) {
   return fmt::format("{:.4g} to {:.4g}", p.value(std::max(u - 1.645 * deviation, p.lowest())),
                      p.value(std::min(u + 1.645 * deviation, p.highest())));
+}
+
+/// Number of searches that end at the best optimum.
+long searches_at_best(const BestFit& fit) {
+  const double least = fit.searches.front().cost;
+  return std::count_if(fit.searches.begin(), fit.searches.end(), [&](const LeastSquaresSearch& s) {
+    return s.cost <= least * (1 + same_cost_relative) + same_cost;
+  });
 }
 
 std::string parameter_lines(const Result& r) {
@@ -38,11 +45,11 @@ std::string parameter_lines(const Result& r) {
                                 "linear 90 %", "start", "material", "sd / range", "");
   for (int d = 0; d < fit.parameters(); ++d) {
     const auto& p = fit.unknowns[d];
-    const double u = r.fit.best.end[d], sd = std::sqrt(r.known.covariance(d, d));
+    const double u = r.fit.best.end[d], sd = std::sqrt(r.identifiability.covariance(d, d));
     out += fmt::format("{:<10}{:>12.5g}{:>24}{:>14.4g}{:>12.4g}{:>14.2g}  {}\n", p.name, p.value(u),
-                       plus_minus(p, u, sd), p.value(r.fit.best.start[d]),
-                       fit.material.material.properties[p.property], r.known.deviation[d],
-                       in_words(r.known.findings[d]));
+                       linear_interval(p, u, sd), p.value(r.fit.best.start[d]),
+                       fit.material.material.properties[p.property], r.identifiability.deviation[d],
+                       describe(r.identifiability.findings[d]));
   }
   for (std::size_t d = fit.parameters(); d < fit.unknowns.size(); ++d)
     out += fmt::format("{:<32}{:.3g} of the peak\n", fit.unknowns[d].name,
@@ -117,26 +124,23 @@ std::vector<std::string> warnings(const Result& r) {
   std::vector<std::string> out;
   const auto& fit = r.objective.fit;
   for (int d = 0; d < fit.parameters(); ++d)
-    if (r.known.findings[d] != Finding::determined)
-      out.push_back(fmt::format("{} is {}", fit.unknowns[d].name, in_words(r.known.findings[d])));
-  for (const auto& c : r.known.combinations)
-    if (!c.determined) out.push_back("these tests do not determine " + in_terms(c, fit.unknowns));
+    if (r.identifiability.findings[d] != Finding::determined)
+      out.push_back(fmt::format("{} is {}", fit.unknowns[d].name, describe(r.identifiability.findings[d])));
+  for (const auto& c : r.identifiability.combinations)
+    if (!c.determined) out.push_back("these tests do not determine " + combination_text(c, fit.unknowns));
   if (r.fit.degrees <= 0)
-    out.push_back(fmt::format("{} parameters from fewer independent values: the fit cannot be judged",
+    out.push_back(fmt::format("{} parameters from no more independent values: the misfit says nothing about the errors",
                               fit.parameters()));
   const auto all = misfits(r.objective, r.fit.best.end);
   for (std::size_t k = 0; k < all.size(); ++k)
     if (all[k].in_errors > largest_misfit)
-      out.push_back(fmt::format("{} of '{}' is missed by {:.1f} times the errors stated{}",
+      out.push_back(fmt::format("residuals of {} of '{}' are {:.1f} times the errors stated{}",
                                 info(r.objective.curves[k].measure).key,
                                 fit.tests[r.objective.curves[k].test].name, all[k].in_errors,
                                 k >= r.objective.fitted_curves ? " (held out)" : ""));
-  const double least = r.fit.searches.front().cost;
-  const auto same = std::count_if(r.fit.searches.begin(), r.fit.searches.end(), [&](const Search& s) {
-    return s.cost <= least * (1 + same_cost_relative) + same_cost;
-  });
+  const auto same = searches_at_best(r.fit);
   if (r.fit.searches.size() > 1 && same < 2)
-    out.push_back(fmt::format("only 1 of {} searches found the best: more starts may find a better one",
+    out.push_back(fmt::format("only 1 of {} searches ended at the best optimum: more starts may find a better one",
                               r.fit.searches.size()));
   if (!r.fit.best.converged)
     out.push_back("the last search stopped before it converged: more iterations may help");
@@ -149,13 +153,10 @@ std::string report_text(const Result& r) {
   const auto& fit = r.objective.fit;
   std::string out = fmt::format("{}\n{}\n\n", fit.title.empty() ? fit.file_name : fit.title, r.command);
   out += parameter_lines(r);
-  const double least = r.fit.searches.front().cost;
-  const auto same = std::count_if(r.fit.searches.begin(), r.fit.searches.end(), [&](const Search& s) {
-    return s.cost <= least * (1 + same_cost_relative) + same_cost;
-  });
+  const auto same = searches_at_best(r.fit);
   out += fmt::format("\nChi squared {:.4g} for {:.0f} degrees of freedom", r.fit.chi_squared, r.fit.degrees);
-  out += r.known.inflation > 1
-             ? fmt::format("; linear intervals widened by sqrt({:.3g})\n", r.known.inflation)
+  out += r.identifiability.inflation > 1
+             ? fmt::format("; linear intervals widened by sqrt({:.3g})\n", r.identifiability.inflation)
              : "\n";
   out += fmt::format(
       "{} of {} searches end at the best; {} simulations of all tests, {} with a failed test; {:.1f} s\n",
@@ -163,13 +164,13 @@ std::string report_text(const Result& r) {
   if (r.posterior) out += posterior_lines(r);
   out += curve_lines(r);
   out += "\nCombinations of parameters (over their ranges), best determined first\n";
-  for (const auto& c : r.known.combinations)
+  for (const auto& c : r.identifiability.combinations)
     out += fmt::format("{:>12.3g}  sd {:<10.2g}{}{}\n", c.singular_value, c.deviation,
-                       in_terms(c, fit.unknowns), c.determined ? "" : "  NOT DETERMINED");
+                       combination_text(c, fit.unknowns), c.determined ? "" : "  NOT DETERMINED");
   out += "\nCorrelation\n";
   for (int i = 0; i < fit.parameters(); ++i) {
     out += fmt::format("{:<10}", fit.unknowns[i].name);
-    for (int j = 0; j <= i; ++j) out += fmt::format("{:>8.2f}", r.known.correlation(i, j));
+    for (int j = 0; j <= i; ++j) out += fmt::format("{:>8.2f}", r.identifiability.correlation(i, j));
     out += "\n";
   }
   out += "\nSearches: half sum of squares at start and end, iterations, parameters\n";
@@ -192,11 +193,8 @@ std::vector<std::string> write_report(const Result& r) {
   const fs::path folder = r.objective.fit.output_folder;
   std::vector<std::string> files;
   const auto write = [&](const std::string& name, const std::string& text) {
-    const auto path = (folder / name).string();
-    std::ofstream out(path);
-    out << text;
-    if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", path));
-    files.push_back(path);
+    host::write_whole(folder / name, text);
+    files.push_back((folder / name).string());
   };
   write("report.txt", report_text(r));
   write("report.toml", report_toml(r));

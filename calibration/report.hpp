@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a fit found, in text, TOML, HDF5 and as a material file.
+// The result of a fit as text, TOML, HDF5 and a material file.
 #pragma once
 #include "calibration/posterior.hpp"
 #include <filesystem>
@@ -10,23 +10,23 @@ namespace calibration {
 struct Result {
   const Objective& objective;
   const BestFit& fit;
-  const Identifiability& known;
+  const Identifiability& identifiability;
   const Posterior* posterior = nullptr; ///< null: none was sampled
-  std::string command;                  ///< that made it
+  std::string command;                  ///< command line of the fit
   double seconds = 0;
 };
 
-/// How one curve is met.
+/// Misfit of one curve.
 struct CurveMisfit {
-  double rms = 0;       ///< in the unit of the curve, weighed by arc
-  double of_peak = 0;   ///< the same over the largest magnitude
-  double in_errors = 0; ///< rms of the residuals in standard deviations
+  double rms = 0;       ///< root mean square in the unit of the curve, rows weighted by arc length
+  double of_peak = 0;   ///< the same over the largest magnitude of the curve
+  double in_errors = 0; ///< root mean square of the residuals in standard deviations
 };
 std::vector<CurveMisfit> misfits(const Objective& objective, const Eigen::VectorXd& u);
-/// The best fit with the parameters of the material file in place of those found.
+/// Coordinates of the parameters of the material file, with the model errors of the best fit.
 Eigen::VectorXd at_material(const Result& result);
 
-/// All that should keep a reader from trusting the numbers, one line each; empty: nothing.
+/// Reasons not to trust the parameters, one line each.
 std::vector<std::string> warnings(const Result& result);
 
 std::string report_text(const Result& result);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report for programs: TOML, a material file, HDF5. Layout: README.md.
+// The result of a fit in files for programs: TOML, a material file, HDF5. Layout: README.md.
 #include "calibration/report.hpp"
 #include "host/files/hdf5_write.hpp"
 #include "vumat/parameters.hpp"
@@ -39,7 +39,7 @@ void write_curves(const Result& r, H5::H5File& file) {
     const std::string unit(info(c.measure).unit);
     host::attribute(group, "test", test.name);
     host::attribute(group, "measure", std::string(info(c.measure).key));
-    host::attribute(group, "kind", std::string(kind_names[std::size_t(test.specimen.kind)]));
+    host::attribute(group, "kind", std::string(test.specimen.kind->name));
     host::attribute(group, "held_out", int(test.held_out));
     host::attribute(group, "independent_rows", c.independent_rows);
     host::attribute(group, "confining_stress_Pa", test.specimen.radial_stress);
@@ -83,10 +83,10 @@ void write_parameters(const Result& r, H5::H5File& file) {
   host::write_dataset(group, "upper", "own", upper);
   host::write_dataset(group, "logarithmic", "-", logarithmic);
   host::write_dataset(group, "material", "own", reference);
-  host::write_dataset(group, "covariance", "coordinates", row_major(r.known.covariance), d);
-  host::write_dataset(group, "correlation", "-", row_major(r.known.correlation), d);
+  host::write_dataset(group, "covariance", "coordinates", row_major(r.identifiability.covariance), d);
+  host::write_dataset(group, "correlation", "-", row_major(r.identifiability.correlation), d);
   std::vector<double> singular, weights;
-  for (const auto& c : r.known.combinations) {
+  for (const auto& c : r.identifiability.combinations) {
     singular.push_back(c.singular_value);
     weights.insert(weights.end(), c.weights.begin(), c.weights.end());
   }
@@ -100,7 +100,7 @@ void write_posterior(const Result& r, H5::H5File& file) {
   host::attribute(group, "names", name_list(r.objective.fit, r.objective.fit.unknowns.size()));
   host::attribute(group, "walkers", post.chain.walkers);
   host::attribute(group, "converged", int(post.diagnosis.verdict.converged));
-  // (steps * walkers, unknowns), values; walkers run fastest.
+  // (steps * walkers, unknowns), values; rows of one step are next to each other.
   host::write_dataset(group, "samples", "own", row_major(post.values.transpose()), int(post.values.rows()));
   host::write_dataset(group, "log_density", "-", post.chain.log_density);
 }
@@ -123,9 +123,9 @@ std::string report_toml(const Result& r) {
                        quoted_text(p.name), toml_number(p.value(r.fit.best.end[d])),
                        toml_number(p.value(r.fit.best.start[d])),
                        toml_number(fit.material.material.properties[p.property]), toml_number(p.lower),
-                       toml_number(p.upper), toml_number(r.known.deviation[d]),
-                       quoted_text(in_words(r.known.findings[d])));
-    out += fmt::format("correlation = {}\n", numbers(r.known.correlation.row(d)));
+                       toml_number(p.upper), toml_number(r.identifiability.deviation[d]),
+                       quoted_text(describe(r.identifiability.findings[d])));
+    out += fmt::format("correlation = {}\n", numbers(r.identifiability.correlation.row(d)));
     if (!r.posterior || r.posterior->diagnosis.marginals.empty()) continue;
     const auto& m = r.posterior->diagnosis.marginals[d];
     out += fmt::format("posterior = {{mean = {}, deviation = {}, lower_90 = {}, upper_90 = {}, rhat = {}, "
@@ -136,7 +136,7 @@ std::string report_toml(const Result& r) {
   for (std::size_t d = fit.parameters(); d < fit.unknowns.size(); ++d)
     out += fmt::format("\n[[model_error]]\nname = {}\nof_peak = {}\n", quoted_text(fit.unknowns[d].name),
                        toml_number(fit.unknowns[d].value(r.fit.best.end[d])));
-  for (const auto& c : r.known.combinations)
+  for (const auto& c : r.identifiability.combinations)
     out += fmt::format(
         "\n[[combination]]\nsingular_value = {}\ndeviation = {}\ndetermined = {}\nweights = {}\n",
         toml_number(c.singular_value), toml_number(c.deviation), c.determined, numbers(c.weights));
@@ -165,19 +165,19 @@ std::string material_toml(const Result& r) {
   out += "name = \"SIMSAND\"\n\n";
   const auto props = r.objective.properties(r.fit.best.end);
   for (std::size_t i = 0; i < simsand::parameters.size(); ++i) {
-    const auto& known = simsand::parameters[i];
-    if (known.key == "e0") continue; // given by scene or path
+    const auto& parameter = simsand::parameters[i];
+    if (parameter.key == "e0") continue; // scenes and paths give it
     std::string remark;
     for (int d = 0; d < fit.parameters(); ++d) {
       if (fit.unknowns[d].property != int(i)) continue;
-      remark = fmt::format("  # {}", in_words(r.known.findings[d]));
+      remark = fmt::format("  # {}", describe(r.identifiability.findings[d]));
       if (r.posterior && !r.posterior->diagnosis.marginals.empty()) {
         const auto& m = r.posterior->diagnosis.marginals[d];
         remark += fmt::format("; 90 %: {:.4g} to {:.4g}", m.equal_tailed.lower, m.equal_tailed.upper);
       }
     }
     const bool fitted = !remark.empty();
-    out += fmt::format("{} = {}{}\n", known.key,
+    out += fmt::format("{} = {}{}\n", parameter.key,
                        toml_number(fitted ? std::stod(fmt::format("{:.6g}", props[i])) : props[i]), remark);
   }
   return out + fmt::format("grain_density = {}\n",

@@ -14,7 +14,7 @@ namespace calibration {
 namespace {
 
 constexpr double growth = 1.5;      ///< of the archive between two fits of the kernel
-constexpr int archive_visits = 500; ///< at most so many points of each walker enter the archive
+constexpr int archive_visits = 500; ///< largest number of points of each walker that enter the archive
 
 using Clock = std::chrono::steady_clock;
 
@@ -52,7 +52,7 @@ void check(const SamplerOptions& o, const Eigen::MatrixXd& start) {
       wrong(fmt::format("{} bounds for {} dimensions", bound->size(), start.rows()));
 }
 
-/// Uses the last third of the archive: what came before is still on its way from the start.
+/// Fits the proposals to the last third of the archive, as earlier points still depend on the start.
 void fit(SamplerState& state, RandomStream& random) {
   const auto points = state.archive.cols();
   state.fitted_first = state.step == 0 ? 0 : 2 * points / 3;
@@ -116,7 +116,7 @@ void move_walkers(SamplerState& state, const LogDensity& density, const SamplerO
   }
 }
 
-/// Archive and fits of a step of the burn-in; the last one leaves the kernel as it stays.
+/// Extends the archive in a step of the burn-in and fits the proposals to it. They stay as they are after the last step.
 void adapt(SamplerState& state, const SamplerOptions& options, RandomStream& random) {
   const int every = 1 + (options.burn_in - 1) / archive_visits;
   if (state.step % every == 0) {
@@ -132,7 +132,7 @@ void adapt(SamplerState& state, const SamplerOptions& options, RandomStream& ran
   state.proposed = state.accepted = 0;
 }
 
-void keep(SamplerState& state) {
+void keep_step(SamplerState& state) {
   auto& chain = state.chain;
   chain.samples.insert(chain.samples.end(), state.points.data(), state.points.data() + state.points.size());
   chain.log_density.insert(chain.log_density.end(), state.log_density.begin(), state.log_density.end());
@@ -147,20 +147,20 @@ void make_step(SamplerState& state, const LogDensity& density, const SamplerOpti
   if (state.step <= options.burn_in)
     adapt(state, options, random);
   else if ((state.step - options.burn_in) % options.thinning == 0)
-    keep(state);
+    keep_step(state);
 }
 
-/// Tells about once a second how far the run is.
+/// Reports progress about once a second.
 class Reporter {
 public:
   Reporter(const ProgressReport& report, const SamplerOptions& options, const SamplerState& state)
       : report(report), options(options), first_step(state.step), accepted(state.accepted),
         proposed(state.proposed) {}
 
-  /// False if the run shall stop.
-  bool tell(const SamplerState& state, std::int64_t all_steps, bool now) {
+  /// False if the callback stops the run.
+  bool update(const SamplerState& state, std::int64_t all_steps, bool now) {
     if (!report || (!now && seconds_since(last) < 1)) return true;
-    if (state.proposed < proposed) accepted = proposed = 0; // the counters start anew after burn-in
+    if (state.proposed < proposed) accepted = proposed = 0; // burn-in has ended and reset the counters
     SamplerProgress p;
     p.fraction = double(state.step) / double(all_steps);
     p.acceptance =
@@ -206,11 +206,11 @@ Chain sample(const LogDensity& density, const Eigen::MatrixXd& start, const Samp
     file->write(state);
     written = Clock::now();
   };
-  bool goes_on = true;
-  while (state.step < all_steps && goes_on) {
+  bool running = true;
+  while (state.step < all_steps && running) {
     make_step(state, density, options, random);
     if (state.step < all_steps && seconds_since(written) >= checkpoint.interval) write();
-    goes_on = reporter.tell(state, all_steps, state.step == all_steps);
+    running = reporter.update(state, all_steps, state.step == all_steps);
   }
   state.chain.complete = state.step == all_steps;
   write();

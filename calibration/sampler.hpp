@@ -13,15 +13,15 @@
 
 namespace calibration {
 
-/// Log densities, up to one constant, of n points given as columns of a (dimensions, n) matrix. Minus infinity
-/// excludes a point; NaN and plus infinity are errors. n varies from call to call, 1 to the number of walkers (at
+/// Log densities, up to a common constant, of n points given as columns of a (dimensions, n) matrix. Minus infinity
+/// excludes a point; NaN and plus infinity are errors. n varies from call to call, from 1 to the number of walkers (at
 /// the start: to the number of starting points). It may use threads; the value of a column must not depend on the
 /// other columns, on their number or on the threads.
 using LogDensity = std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::MatrixXd>& points)>;
 
 struct SamplerOptions {
   int walkers = 32;       ///< at least 4; points evaluated at once
-  int burn_in = 1000;     ///< steps of every walker that adapt and are not kept; 100 per dimension are wise
+  int burn_in = 1000;     ///< steps of every walker that adapt and are not kept; at least 100 per dimension advised
   int steps = 2000;       ///< kept steps of every walker: walkers * steps samples
   int thinning = 1;       ///< steps made for every step kept
   std::uint64_t seed = 1; ///< of the random stream
@@ -29,13 +29,13 @@ struct SamplerOptions {
   Eigen::VectorXd upper;
 };
 
-/// Where the chain is kept between and during runs. Without a file nothing is written.
+/// Where the chain is stored during a run and between runs. Without a file nothing is written.
 struct Checkpoint {
   std::filesystem::path file; ///< HDF5, calibration/chain_file.hpp; replaced as a whole, never half written
   double interval = 20;       ///< seconds between two writings
   std::vector<std::string> names; ///< of the dimensions
-  std::string fingerprint; ///< of the problem: data, priors, fixed parameters, model. A resume compares it
-  bool resume = true;      ///< go on from the file if it exists; else an existing file is an error
+  std::string fingerprint; ///< of data, priors, fixed parameters, model; must be equal for a run to be resumed
+  bool resume = true;      ///< continue from the file if it exists; false: an existing file is an error
 };
 
 /// The kept samples. Walker w, kept step s.
@@ -44,7 +44,7 @@ struct Chain {
   std::vector<double> samples;     ///< (steps, walkers, dimensions), last index fastest
   std::vector<double> log_density; ///< (steps, walkers)
   double acceptance = 0;           ///< part of the proposals of kept steps that were accepted
-  bool complete = false;           ///< false after a stop asked by the progress callback
+  bool complete = false;           ///< false if the progress callback stopped the run
 
   /// All samples as columns, (dimensions, steps * walkers).
   Eigen::Map<const Eigen::MatrixXd> pooled() const {
@@ -63,20 +63,20 @@ struct SamplerProgress {
   bool burning_in = false;
 };
 
-/// Called about once a second and at the end. False stops the run after its checkpoint is written; a later call
-/// resumes it.
+/// Called about once a second and at the end. Returning false stops the run after its checkpoint is written; a later
+/// call resumes it.
 using ProgressReport = std::function<bool(const SamplerProgress&)>;
 
 /// Samples the density. `start` holds points as columns (dimensions, m), m at least max(walkers, 2 dimensions + 2),
-/// spread wider than the posterior is expected to be: draws from the prior, or around several optima. Those of
-/// finite density found first become the walkers; all that are finite found the archive.
+/// spread wider than the posterior is expected to be: draws from the prior, or around several optima. The first ones of
+/// finite density become the walkers; all of finite density begin the archive.
 ///
-/// The result is the same bit for bit for any number of threads and however often the run was interrupted and
-/// resumed. A resume may ask for more steps than the file holds (the chain is extended); every other option, the
-/// names and the fingerprint must be those of the file.
+/// The result is the same bit for bit for any number of threads and any number of interruptions. A resumed run may have
+/// more steps than the file holds, which extends the chain; every other option, the names and the fingerprint must be
+/// those of the file.
 ///
-/// Throws std::runtime_error, one line: a density that is NaN or plus infinity (names the point), too few finite
-/// starting points, starting points in a subspace, a file that is foreign, damaged or of another problem.
+/// Throws std::runtime_error of one line: a density that is NaN or plus infinity (names the point), too few starting
+/// points of finite density, starting points in a subspace, a file that is no chain, is damaged or of another problem.
 Chain sample(const LogDensity& density, const Eigen::MatrixXd& start, const SamplerOptions& options,
              const Checkpoint& checkpoint = {}, const ProgressReport& report = {});
 

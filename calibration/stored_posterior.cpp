@@ -46,7 +46,7 @@ std::vector<std::vector<double>> read_rows(const H5::DataSet& dataset, std::size
   return rows;
 }
 
-/// SIMSAND's keys in the fit's material, those sampled left out; e0 is each test's own.
+/// SIMSAND's keys in the fit's material that were not sampled.
 std::map<std::string, double> fixed_keys(const std::string& resolved, const drivers::Words& sampled) {
   const auto material = drivers::parse_toml(resolved, "the fit").table("material");
   std::map<std::string, double> fixed;

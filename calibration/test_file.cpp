@@ -12,8 +12,10 @@ using drivers::CsvTable;
 using drivers::TomlTable;
 using drivers::Words;
 
-template <class List> Words words_of(const List& list) {
-  return Words(list.begin(), list.end());
+Words kind_names() {
+  Words names;
+  for (const auto& test : drivers::axisymmetric_tests()) names.emplace_back(test.name);
+  return names;
 }
 
 Words measure_names() {
@@ -28,13 +30,13 @@ Measure measure_named(const std::string& name) {
   throw std::logic_error("no measure " + name);
 }
 
-/// Factor to SI by the declared unit of a stress, a strain or a ratio.
+/// Factor from the declared unit of a stress, a strain or a ratio to SI.
 double read_unit(const TomlTable& table, bool stress) {
   const auto unit = stress ? table.text("unit", {"Pa", "kPa", "MPa"}) : table.text("unit", {"1", "%"});
   return unit == "MPa" ? 1e6 : unit == "kPa" ? 1e3 : unit == "%" ? 0.01 : 1;
 }
 
-/// Logarithmic strain of a strain that may be a change of length or volume over the initial one.
+/// Converts engineering strain, a change of length or volume over the initial one, to logarithmic strain.
 void to_logarithmic(std::vector<double>& values, const TomlTable& table, const CsvTable& csv,
                     const std::string& column) {
   if (table.text("strain", {"engineering", "logarithmic"}) == "logarithmic") return;
@@ -65,7 +67,7 @@ std::vector<double> read_column(const TomlTable& table, const CsvTable& csv, boo
   return values;
 }
 
-/// Strain of an oedometer, where the void ratio says it all.
+/// Axial strain of an oedometer test: without radial strain it follows from the void ratio.
 std::vector<double> strain_of_void_ratio(const std::vector<double>& e, double e0) {
   std::vector<double> out;
   for (double v : e) out.push_back(std::log((1 + e0) / (1 + v)));
@@ -83,14 +85,14 @@ RawCurves read_curves(const TomlTable& columns, const CsvTable& csv, const Speci
   const auto& e = raw.given[std::size_t(Measure::void_ratio)];
   if (const auto axial = columns.optional_table("axial_strain"))
     raw.strain = read_column(*axial, csv, false, true, false);
-  else if (specimen.kind == TestKind::oedometric && e)
+  else if (specimen.kind->holds("radial_strain") && e)
     raw.strain = strain_of_void_ratio(*e, specimen.void_ratio);
   else
     columns.fail("axial_strain", "a table {column, unit, strain}", "no such table");
   return raw;
 }
 
-/// A curve that the columns hold, or that follows from them; empty if it does not.
+/// A curve that is a column or follows from columns; empty if neither.
 std::vector<double> curve_of(const RawCurves& raw, const Specimen& specimen, Measure measure) {
   const auto& given = raw.given[std::size_t(measure)];
   if (given) return *given;
@@ -106,7 +108,7 @@ std::vector<double> curve_of(const RawCurves& raw, const Specimen& specimen, Mea
   const auto *q = has(Measure::deviatoric_stress), *p = has(Measure::mean_stress),
              *axial = has(Measure::axial_stress), *radial = has(Measure::radial_stress),
              *volume = has(Measure::volumetric_strain), *e = has(Measure::void_ratio);
-  const bool cell = specimen.kind == TestKind::triaxial_drained;
+  const bool cell = specimen.kind->holds("radial_stress");
   const double e0 = specimen.void_ratio, held = specimen.radial_stress;
   if (measure == Measure::deviatoric_stress) {
     if (axial && radial) return fill([&](auto i) { return (*axial)[i] - (*radial)[i]; });
@@ -140,15 +142,14 @@ double read_number_or_note(const TomlTable& table, const char* key, const char* 
 
 Specimen read_specimen(const TomlTable& table, const std::optional<CsvTable>& csv) {
   Specimen s;
-  const auto kind = table.text("kind", words_of(kind_names));
-  s.kind = TestKind(std::find(kind_names.begin(), kind_names.end(), kind) - kind_names.begin());
+  s.kind = drivers::find_axisymmetric_test(table.text("kind", kind_names()));
   s.void_ratio = read_number_or_note(table, "void_ratio", "void_ratio_note", {0.1, 1.9}, csv);
   s.radial_stress = read_number_or_note(table, "confining_stress", "confining_stress_note", {1, 1e9}, csv);
   s.axial_stress = table.number("initial_axial_stress", {1, 1e9}, s.radial_stress);
   return s;
 }
 
-/// Strains of curves that are to be made: denser where the curves rise.
+/// Strains of synthetic curves: denser at the start, where the curves are steep.
 void make_strain(const TomlTable& table, LabTest& test) {
   const long rows = table.integer("rows", {3, 10000});
   const double end = table.number("axial_strain", {-1, 1});

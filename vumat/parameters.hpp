@@ -64,6 +64,18 @@ namespace statev {
 enum Index { void_ratio, plastic_deviatoric_strain, separation_strain, status, nonconvex_updates };
 }
 
+/// Outcome of an update, as written to STATEV(4). A property refused is -100 - its position from 1.
+enum class Status : int {
+  elastic = 0,
+  plastic = 1,
+  stress_free = 2,
+  substepped = 3,
+  exhausted = -1,   ///< no solution within the bounded number of iterations and substeps
+  bad_input = -2,   ///< stress, strain or state not finite, e not positive or eps_d negative
+  unsupported = -3, ///< ndir, nshr or nstatev
+  bad_property = -100
+};
+
 inline constexpr std::array<StateInfo, 5> state_variables{{
     {"void_ratio", "-", "0 before the first update: take e0 and place the stress on the yield surface"},
     {"plastic_deviatoric_strain", "-", "hardening variable, sum of the plastic multiplier"},

@@ -7,18 +7,6 @@
 
 namespace simsand {
 
-/// Outcome of an update, as written to STATEV(4). A property refused is -100 - its position from 1.
-enum class Status : int {
-  elastic = 0,
-  plastic = 1,
-  stress_free = 2,
-  substepped = 3,
-  exhausted = -1,   ///< no solution within the bounded number of iterations and substeps
-  bad_input = -2,   ///< stress, strain or state not finite, e not positive or eps_d negative
-  unsupported = -3, ///< ndir, nshr or nstatev
-  bad_property = -100
-};
-
 /// A material point between two updates.
 template <class Real, int N> struct Point {
   SymmetricTensor<Real, N> stress; ///< compression positive

@@ -12,7 +12,7 @@ std::function<double(const ElementRow&)> value_of(const LinearQuantity& quantity
 
 } // namespace
 
-std::vector<Bound> bounds_of(const std::vector<StopRule>& stops, const std::vector<Quantity>& columns) {
+std::vector<Bound> bounds_of(const std::vector<StopRule>& stops, const std::vector<OutputColumn>& columns) {
   std::vector<Bound> bounds;
   for (const auto& rule : stops) {
     if (rule.critical_tolerance > 0) continue;

@@ -16,7 +16,7 @@ struct Bound {
 };
 
 /// The bounds of stop rules, in terms of columns or linear quantities; the critical state is none of them.
-std::vector<Bound> bounds_of(const std::vector<StopRule>& stops, const std::vector<Quantity>& columns);
+std::vector<Bound> bounds_of(const std::vector<StopRule>& stops, const std::vector<OutputColumn>& columns);
 
 /// The limits of one direction of a cyclic stage that started at `start`.
 std::vector<Bound> bounds_of(const Cycling& cycling, bool upwards, const ElementRow& start);

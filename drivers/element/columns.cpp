@@ -8,7 +8,7 @@ namespace {
 
 using Row = const ElementRow&;
 
-void add_components(std::vector<Quantity>& q) {
+void add_components(std::vector<OutputColumn>& q) {
   for (const bool strain : {true, false})
     for (int c = 0; c < 6; ++c) {
       const auto& component = linear_quantities()[strain ? c : 6 + c];
@@ -17,7 +17,7 @@ void add_components(std::vector<Quantity>& q) {
     }
 }
 
-void add_invariants(std::vector<Quantity>& q) {
+void add_invariants(std::vector<OutputColumn>& q) {
   q.push_back({"p", "Pa", [](Row r) { return mean_stress(r.point.stress); }});
   q.push_back({"q", "Pa", [](Row r) { return deviatoric_stress(r.point.stress); }});
   const Vector6 axial = find_linear_quantity("deviator")->weights;
@@ -27,7 +27,7 @@ void add_invariants(std::vector<Quantity>& q) {
   q.push_back({"deviatoric_strain", "", [](Row r) { return deviatoric_strain(r.point.strain); }});
 }
 
-void add_void_ratios(std::vector<Quantity>& q, std::optional<double> initial,
+void add_void_ratios(std::vector<OutputColumn>& q, std::optional<double> initial,
                      const std::optional<CriticalState>& critical) {
   if (initial)
     q.push_back({"void_ratio", "", [e = *initial](Row r) { return void_ratio_after(e, r.point.strain); }});
@@ -44,9 +44,9 @@ double void_ratio_after(double initial, const Vector6& strain) {
   return (1 + initial) * std::exp(-volumetric_strain(strain)) - 1;
 }
 
-std::vector<Quantity> quantities(const LoadedMaterial& material,
+std::vector<OutputColumn> output_columns(const LoadedMaterial& material,
                                  const std::optional<CriticalState>& critical) {
-  std::vector<Quantity> q;
+  std::vector<OutputColumn> q;
   q.push_back({"time", "s", [](Row r) { return r.point.time; }});
   add_components(q);
   add_invariants(q);

@@ -19,15 +19,15 @@ struct ElementRow {
   double double_amplitude = 0;    ///< strain since the last reversal of a cyclic stage
 };
 
-/// A column of the output. `unit` is part of its name in the header, "" for none.
-struct Quantity {
+/// A column of the output. Its header is name_unit; `unit` is empty where there is none.
+struct OutputColumn {
   std::string name, unit;
   std::function<double(const ElementRow&)> value;
   std::string header() const { return name + (unit.empty() ? "" : '_' + unit); }
 };
 
 /// All columns after stage and step. Void ratio, critical state and state variables are those the material has.
-std::vector<Quantity> quantities(const LoadedMaterial& material,
+std::vector<OutputColumn> output_columns(const LoadedMaterial& material,
                                  const std::optional<CriticalState>& critical = {});
 
 /// Void ratio after the strain alone: d e = -(1 + e) d eps_v.

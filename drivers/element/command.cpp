@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text file that says when it cannot be written.
+/// A text file, or standard output, whose errors are exceptions that name it.
 class OutputFile {
 public:
   /// "" or "-": standard output.
@@ -42,13 +42,13 @@ private:
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file;
 };
 
-std::string header(const std::vector<Quantity>& columns) {
+std::string header(const std::vector<OutputColumn>& columns) {
   std::string line = "stage,step";
   for (const auto& c : columns) line += ',' + c.header();
   return line + '\n';
 }
 
-void append_row(std::string& line, const ElementRow& row, const std::vector<Quantity>& columns) {
+void append_row(std::string& line, const ElementRow& row, const std::vector<OutputColumn>& columns) {
   fmt::format_to(std::back_inserter(line), "{},{}", row.stage, row.step);
   for (const auto& c : columns)
     fmt::format_to(std::back_inserter(line), ",{:.12g}", c.value(row) + 0.0); // no -0
@@ -99,7 +99,7 @@ void run_case(const ElementCase& element, const ElementOptions& options) {
   if (has_envelope(element)) probes = std::make_unique<OutputFile>(envelope_file(options));
   if (probes) probes->write(envelope_header());
   OutputFile table(options.output);
-  const auto columns = quantities(element.material, element.critical);
+  const auto columns = output_columns(element.material, element.critical);
   table.write(header(columns));
   std::string line;
   run_element_case(
@@ -114,7 +114,7 @@ void run_case(const ElementCase& element, const ElementOptions& options) {
 
 void run_case(FailedCall failed, const ElementOptions& options) {
   std::string fault;
-  const auto table = repeated(failed, fault);
+  const auto table = repeat_call(failed, fault);
   OutputFile(options.output).write(table);
   if (!fault.empty())
     throw std::runtime_error(fmt::format("{}: material {} {}: at time {:.9g} s", options.path_file,
@@ -122,12 +122,12 @@ void run_case(FailedCall failed, const ElementOptions& options) {
                                          failed.call.increment.total_time));
 }
 
-int said(const std::exception& error) {
+int print_error(const std::exception& error) {
   fmt::print(stderr, "simsand element: {}\n", error.what());
   return 1;
 }
 
-/// What becomes of each path of a batch.
+/// Input and output files of each path of a batch.
 std::vector<ElementOptions> jobs_of(const ElementBatch& batch) {
   const bool several = batch.path_files.size() > 1, folder = several || fs::is_directory(batch.output);
   if (!folder)
@@ -152,7 +152,7 @@ std::vector<ElementOptions> jobs_of(const ElementBatch& batch) {
   return jobs;
 }
 
-/// A path to be led along, or a call that failed in a run, to be made again.
+/// A loading path, or a call that failed in a run and is to be repeated.
 using Case = std::variant<ElementCase, FailedCall>;
 using Cases = std::vector<std::optional<Case>>;
 
@@ -171,23 +171,23 @@ Cases read_cases(const std::vector<ElementOptions>& jobs, int& failed) {
   for (std::size_t i = 0; i < jobs.size(); ++i) try {
       cases[i] = read_case(jobs[i]);
     } catch (const std::exception& error) {
-      failed = said(error);
+      failed = print_error(error);
     }
   return cases;
 }
 
 int run_cases(const Cases& cases, const std::vector<ElementOptions>& jobs, int wanted) {
   std::atomic<int> failed = 0;
-  const bool own =
+  const bool all_simsand =
       std::all_of(cases.begin(), cases.end(), [](const auto& c) { return !c || material_of(*c).is_simsand; });
-  const int threads = wanted > 0 ? wanted : own ? omp_get_max_threads() : 1;
+  const int threads = wanted > 0 ? wanted : all_simsand ? omp_get_max_threads() : 1;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t i = 0; i < jobs.size(); ++i)
     if (cases[i]) try {
         std::visit([&](const auto& c) { run_case(c, jobs[i]); }, *cases[i]);
       } catch (const std::exception& error) {
 #pragma omp critical
-        failed = said(error);
+        failed = print_error(error);
       }
   return failed;
 }
@@ -215,7 +215,7 @@ int run_elements(const ElementBatch& batch) {
     if (!batch.figures.empty()) draw_pictures(pictures, batch.figures);
     return failed;
   } catch (const std::exception& error) {
-    return said(error);
+    return print_error(error);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of a loading path: named linear combinations of stress or strain, and conditions on them.
+// The vocabulary of loading paths: named linear combinations of stress or strain, and conditions on them.
 // Compression positive, Pa, tensor shear strain; axis 1 is the axis of the specimen.
 #pragma once
 #include "host/material/caller.hpp"
@@ -9,7 +9,7 @@
 
 namespace drivers {
 
-/// stress . sigma' + strain . epsilon changes by `value` over the stage, or ends at it.
+/// stress . sigma + strain . epsilon, of effective stress and strain, changes by `value` over the stage, or ends at it.
 struct Condition {
   Vector6 stress = Vector6::Zero(), strain = Vector6::Zero();
   double value = 0;
@@ -26,12 +26,12 @@ struct LinearQuantity {
   std::string name;
   bool is_strain;
   Vector6 weights; ///< of 11, 22, 33, 12, 23, 31; a shear component counts once
-  /// Held, or driven by the change of a strain or to the final value of a stress.
+  /// A strain that changes by `value`, or a stress that ends at it.
   Condition condition(double value = 0) const;
 };
 
-/// Components, axial and radial ones, Roscoe's p, q, eps_v, eps_q, and their orthonormal kin P, Q, Z, eps_P,
-/// eps_Q, eps_Z. Each pair is conjugate: work is p eps_v + q eps_q = P eps_P + Q eps_Q + Z eps_Z.
+/// Components, axial and radial ones, Roscoe's p, q, eps_v, eps_q, and the orthonormal P, Q, Z, eps_P, eps_Q, eps_Z. Each
+/// pair is conjugate: work is p eps_v + q eps_q = P eps_P + Q eps_Q + Z eps_Z.
 const std::vector<LinearQuantity>& linear_quantities();
 /// The one of this name; null if there is none.
 const LinearQuantity* find_linear_quantity(std::string_view name);

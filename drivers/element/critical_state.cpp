@@ -17,7 +17,7 @@ CriticalState of_simsand(const std::vector<double>& properties) {
 } // namespace
 
 double CriticalState::void_ratio(double p) const {
-  constexpr double smallest = 0.01; // as the material has it
+  constexpr double smallest = 0.01; // the floor of e_c in the material
   return std::max(e_ref - lambda * std::pow(std::max(p, p_min) / p_at, zeta), smallest);
 }
 

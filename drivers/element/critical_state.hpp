@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The critical state as a yardstick for results: void ratio and stress ratio that a sand tends to. The
-// numbers of SIMSAND, or given in the path file for another material. Formulas: vumat/EQUATIONS.md (3), (6), (7).
+// The critical state that results are compared with: void ratio and stress ratio that a sand tends to. Its parameters
+// are those of SIMSAND, or given in the path file for another material. Formulas: vumat/EQUATIONS.md (3), (6), (7).
 #pragma once
 #include "drivers/files/material_file.hpp"
 
@@ -15,7 +15,7 @@ struct CriticalState {
   double stress_ratio(double lode_angle) const;
 };
 
-/// That of SIMSAND, or of the table `[critical_state]` of a path with another material; none without either.
+/// The critical state of SIMSAND, or of the table `[critical_state]` of a path with another material; none without both.
 std::optional<CriticalState> read_critical_state(const TomlTable& document, const LoadedMaterial& material);
 
 } // namespace drivers

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cyclic loading: the drive of a stage goes forth and back, and turns where a quantity meets its limit.
+// Cyclic loading: the driven quantity of a stage goes to and fro, and reverses where a quantity meets its limit.
 #pragma once
 #include "drivers/element/condition.hpp"
 #include "drivers/files/toml_table.hpp"
@@ -13,15 +13,15 @@ struct CyclicLimit {
 };
 
 struct Cycling {
-  std::vector<CyclicLimit> limits;        ///< the first that is met turns the drive
+  std::vector<CyclicLimit> limits;        ///< the first that is met reverses the loading
   long cycles = 1;                        ///< each from upper to upper limit, or from lower to lower
-  bool upwards = true;                    ///< of the first leg
-  double increment = 0;                   ///< of the drive, positive; Pa or strain
+  bool upwards = true;                    ///< direction of the first leg (half cycle)
+  double increment = 0;                   ///< of the driven quantity, positive; Pa or strain
   long leg_increments = 100000;           ///< a leg that needs more is an error
   const LinearQuantity* strain = nullptr; ///< whose double amplitude is reported
 };
 
-/// Reads `[stage.cyclic]` but the drive and its increment.
+/// Reads `[stage.cyclic]` except the driven quantity and its increment.
 Cycling read_cycling(const TomlTable& table);
 
 } // namespace drivers

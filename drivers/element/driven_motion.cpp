@@ -8,13 +8,13 @@
 namespace drivers {
 namespace {
 
-host::Kinematics way_to(const DrivenMotion& motion, const host::Tensor& at_start, double from, double to,
+host::Kinematics motion_between(const DrivenMotion& motion, const host::Tensor& at_start, double from, double to,
                         const host::Tensor& now) {
   if (motion.by_velocity) return host::carried_along(now, (to - from) * motion.value);
   const host::Tensor target = at_start + to * (motion.value - at_start);
   if (!(target.determinant() > 0))
     throw std::runtime_error(
-        fmt::format("the straight way to the deformation gradient passes through a determinant of {:g}",
+        fmt::format("the straight line to the deformation gradient passes through a determinant of {:g}",
                     target.determinant()));
   return host::led_to(now, target);
 }
@@ -38,13 +38,13 @@ DrivenMotion read_motion(const TomlTable& table) {
 
 StepReport follow(MaterialCaller& material, const DrivenMotion& motion, const host::Tensor& at_start,
                   double from, double to, double duration, PointState& point) {
-  std::optional<host::Kinematics> way;
+  std::optional<host::Kinematics> kinematics;
   try {
-    way = way_to(motion, at_start, from, to, point.gradient);
+    kinematics = motion_between(motion, at_start, from, to, point.gradient);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", motion.where, error.what()));
   }
-  auto answer = material.follow(point, *way, (to - from) * duration);
+  auto answer = material.follow(point, *kinematics, (to - from) * duration);
   StepReport report;
   report.finite = is_finite(answer);
   report.refused = material.refused(answer);

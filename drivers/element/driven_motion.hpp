@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stage that is driven by the motion itself, rotation and all: a deformation gradient to be reached, or a
-// velocity gradient. Base axes, tension positive.
+// A stage that is driven by the motion itself, rotation included: a deformation gradient to be reached, or a velocity
+// gradient. Base axes, tension positive.
 #pragma once
 #include "drivers/element/material_point.hpp"
 #include "drivers/files/toml_table.hpp"
@@ -21,9 +21,9 @@ struct DrivenMotion {
 /// Reads `gradient` or `velocity_gradient`: nine numbers, row by row.
 DrivenMotion read_motion(const TomlTable& table);
 
-/// Takes `point` from one fraction of a stage to another; `at_start` is F where the stage began. After an
-/// answer that is not finite or refused `point` is as before. Throws std::runtime_error for a motion that cannot
-/// be followed: det F not above 0, or too much in one increment.
+/// Takes `point` from one fraction of a stage to another; `at_start` is F where the stage began. After an answer that is
+/// not finite, or a failure reported by the material, `point` is unchanged. Throws std::runtime_error for a motion
+/// that cannot be followed: det F not above 0, or a rotation or strain too large for one increment.
 StepReport follow(MaterialCaller& material, const DrivenMotion& motion, const host::Tensor& at_start,
                   double from, double to, double duration, PointState& point);
 

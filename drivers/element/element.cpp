@@ -16,12 +16,12 @@ NewtonOptions read_newton(const TomlTable& table) {
 
 std::vector<Stage> read_stages(const TomlTable& document, const ElementCase& element) {
   Words names;
-  for (const auto& q : quantities(element.material, element.critical)) names.push_back(q.name);
+  for (const auto& q : output_columns(element.material, element.critical)) names.push_back(q.name);
   std::vector<Stage> stages;
   for (const auto& table : document.tables("stage", 1)) {
     const auto again = read_repetition(table, stages.size());
     if (!again) stages.push_back(read_stage(table, int(stages.size()) + 1, names));
-    // After a rotation, conditions on stress and strain would be on axes that the table does not show.
+    // Conditions are in corotational axes, columns in base axes: after a rotation the two would differ.
     if (stages.front().motion.has_value() != stages.back().motion.has_value())
       table.fail("control", fmt::format("either all stages or none by \"{}\"", motion_control),
                  "'" + stages.back().control + "'");
@@ -62,7 +62,7 @@ ElementCase read_element_case(const TomlTable& document) {
 ElementRow run_element_case(const ElementCase& element, const RowSink& sink, const EnvelopeSink& envelopes,
                             const std::string& failed_point) {
   MaterialCaller material(element.material.material, element.material.failure_state);
-  const auto columns = quantities(element.material, element.critical);
+  const auto columns = output_columns(element.material, element.critical);
   const StageSetting setting{material,       columns, element.critical, element.material.void_ratio,
                              element.newton, sink,    failed_point};
   ElementRow row;

@@ -27,10 +27,10 @@ struct ElementCase {
 /// Throws std::runtime_error with FILE:LINE.
 ElementCase read_element_case(const TomlTable& document);
 
-/// Runs all stages and returns the last row; `sink` takes those that are to be written, `envelopes` the probes of
-/// envelope stages. Throws std::runtime_error naming stage, step, residual and its unit if a step cannot be
-/// completed, after the row of the last one that could. If the material failed, it names what is known of that
-/// instead, and the call goes to the file `failed_point`, unless that is empty.
+/// Runs all stages and returns the last row. `sink` receives the rows that are to be written, `envelopes` the probes of
+/// envelope stages. If an increment cannot be completed, the row of the last one that could goes to `sink`, and
+/// std::runtime_error names stage, step, residual and its unit. If the material failed, the error names fault, stress
+/// and strain increment, and the call goes to the file `failed_point`, unless that is empty.
 ElementRow run_element_case(
     const ElementCase& element, const RowSink& sink,
     const EnvelopeSink& envelopes = [](const EnvelopeRow&) {}, const std::string& failed_point = {});

@@ -21,8 +21,8 @@ double degrees(double angle) {
   return angle * 180 / M_PI;
 }
 
-/// Goes on from all points by one increment each.
-void respond(MaterialCaller& material, const std::vector<Vector6>& increments, double dt,
+/// Takes each point through one increment.
+void advance_all(MaterialCaller& material, const std::vector<Vector6>& increments, double dt,
              const std::vector<double>& angles, const std::string& failed_point,
              std::vector<PointState>& points) {
   points = material.respond(points, increments, dt);
@@ -45,7 +45,7 @@ void probe(MaterialCaller& material, const PointState& state, const Envelope& en
   }
   std::vector<PointState> points(n, state);
   for (long step = 0; step < envelope.increments; ++step)
-    respond(material, increments, duration / double(envelope.increments), angles, failed_point, points);
+    advance_all(material, increments, duration / double(envelope.increments), angles, failed_point, points);
   for (std::size_t i = 0; i < n; ++i)
     sink({stage, degrees(angles[i]), points[i].strain - state.strain, points[i].stress,
           points[i].stress - state.stress});

@@ -11,7 +11,7 @@ namespace drivers {
 struct Envelope {
   double strain_norm = 0; ///< sqrt(d eps : d eps)
   long directions = 72;   ///< equally spaced
-  long increments = 1;    ///< each direction is gone in so many
+  long increments = 1;    ///< of each direction
 };
 
 Envelope read_envelope(const TomlTable& table);
@@ -25,8 +25,8 @@ struct EnvelopeRow {
 };
 using EnvelopeSink = std::function<void(const EnvelopeRow&)>;
 
-/// Probes all directions from `state`, which stays as it is; `duration` in s. Throws std::runtime_error naming
-/// the direction, with all that is known, if an answer is not usable; `failed_point` as in StageSetting.
+/// Probes all directions from `state`, which is not changed; `duration` in s. Throws std::runtime_error naming the
+/// direction, stress and strain increment, if an answer is not usable; `failed_point` as in StageSetting.
 void probe(MaterialCaller& material, const PointState& state, const Envelope& envelope, double duration,
            int stage, const EnvelopeSink& sink, const std::string& failed_point = {});
 

@@ -23,7 +23,7 @@ FailedCall read_failed_call(const TomlTable& document) {
   return {std::move(material), std::move(call)};
 }
 
-std::string repeated(FailedCall& failed, std::string& fault) {
+std::string repeat_call(FailedCall& failed, std::string& fault) {
   auto& b = failed.call.block;
   host::call_vumat(failed.material.material, failed.call.increment, b);
   fault = host::fault_of(b, 0, failed.material.failure_state);

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The straight pieces of a stage: a whole stage, half a cycle, the way between two rows of a replay.
+// The legs of a stage, in which conditions change linearly: a whole stage, half a cycle, the part between two rows of a
+// measured path.
 #pragma once
 #include "drivers/element/stage_run.hpp"
 
 namespace drivers {
 
-/// A piece of a stage, from fraction 0 to 1 of its control.
+/// A part of a stage, from fraction 0 to 1 of its control.
 struct Leg {
   MixedControl control;
   long increments;
   double duration;           ///< s
   std::vector<Bound> limits; ///< that end the leg
-  std::string place;         ///< for messages: the leg within the stage
+  std::string place;         ///< names the leg in messages
 };
 
 enum class LegEnd { completed, limit, stop };
@@ -21,10 +22,10 @@ class LegRun {
 public:
   LegRun(const StageSetting& setting, const Stage& stage, ElementRow& row);
 
-  /// Runs a leg, from the elastic stiffness of the data check if `fresh`. The row at its end is left to the
-  /// caller to write. Throws if an increment cannot be completed.
-  LegEnd run(const Leg& leg, bool fresh = false);
-  /// Gives the row to the sink, unless it was given already.
+  /// Runs a leg; with `from_elastic` the first guess is the elastic stiffness. The caller writes the row at its end.
+  /// Throws std::runtime_error if an increment cannot be completed.
+  LegEnd run(const Leg& leg, bool from_elastic = false);
+  /// Gives the row to the sink, once.
   void write();
   /// Ends the test with a message that names stage, step and leg.
   [[noreturn]] void fail(const Leg& leg, const std::string& why) const;
@@ -33,19 +34,19 @@ public:
   ElementRow& row;
   const ElementRow start;     ///< of the stage
   const MixedControl control; ///< at the start of the stage
-  double reversal = 0;        ///< strain at the last one
+  double reversal_strain = 0; ///< at the last reversal of a cyclic stage
 
 private:
-  /// The start of an increment: fraction of the leg, state, first guess of the stiffness.
-  struct Increment {
+  /// Where an increment starts: fraction of the leg, state, first guess of the stiffness.
+  struct IncrementStart {
     double from = 0;
     ElementRow before;
     Matrix6 tangent;
   };
-  /// Takes `at` from one fraction of a leg to another and brings what follows from the point up to date.
-  StepReport advanced(const Leg& leg, double from, double to, ElementRow& at, Matrix6& tangent) const;
-  /// Shortens the increment that ends at `row` and `to` so that it ends on a bound it passed.
-  void land_on(const Bound& bound, const Leg& leg, const Increment& increment, double& to);
+  /// Takes `at` from one fraction of a leg to another and updates its pore pressure and amplitude.
+  StepReport advance_row(const Leg& leg, double from, double to, ElementRow& at, Matrix6& tangent) const;
+  /// Shortens the increment that ends at `row` and `to` so that it ends on a bound that it passed.
+  void end_on(const Bound& bound, const Leg& leg, const IncrementStart& start, double& to);
   bool passed(const std::vector<Bound>& bounds) const;
   bool critical_since(const ElementRow& before) const;
 

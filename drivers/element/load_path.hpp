@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is done to an element: an initial state and stages, each six linear conditions on stress and strain
-// that are driven once, to and fro (cyclic) or along a measured path (replay); or a probe of all directions
-// (envelope). The words: element/condition.hpp, element/presets.hpp; their manual: ELEMENT.md.
+// The loading path of an element test: an initial state and stages. A stage is six linear conditions on stress and
+// strain, of which the first changes once, to and fro (cyclic) or along a measured path (replay); or a probe of all
+// directions (envelope). Vocabulary: condition.hpp, presets.hpp. Manual: ELEMENT.md.
 // Compression positive, Pa, tensor shear strain; axis 1 is the axis of the specimen.
 #pragma once
 #include "drivers/element/condition.hpp"
@@ -32,9 +32,9 @@ struct Stage {
   std::array<Condition, 6> conditions; ///< the first, or those of a replay, are driven
   /// Weights of the total stress that the apparatus holds while the drain is closed; zero: drained.
   Vector6 held_total = Vector6::Zero();
-  std::optional<double> pore_pressure; ///< Pa, of a drained stage; none: that of the stage before
+  std::optional<double> pore_pressure; ///< Pa, of a drained stage; none: as at the end of the stage before
   long increments = 1;
-  /// Increments between two rows; ends, reversals and rows of a replay are always written.
+  /// Increments between two rows; ends, reversals and rows of a replay are written in any case.
   long output_every = 1;
   double duration = 1; ///< s; of one increment in a cyclic stage
   std::vector<StopRule> stops;
@@ -51,17 +51,17 @@ struct InitialState {
   std::vector<double> state;        ///< STATEV; empty: the material's own
 };
 
-/// Reads `[initial]` but its `void_ratio`.
+/// Reads `[initial]` except its `void_ratio`.
 InitialState read_initial_state(const TomlTable& table);
 
 /// Reads one `[[stage]]`. `quantities` are the columns a stop rule may name beside linear quantities.
 Stage read_stage(const TomlTable& table, int number, const Words& quantities);
 
-/// Reads `[[stage]]` with the control "repeat" after `before` stages: how many of the last ones are to be run
-/// again, and how often. None for another control.
+/// How many of the last stages are run again, and how often.
 struct Repetition {
   long stages, times;
 };
+/// Reads `[[stage]]` with the control "repeat" after `before` stages. None for another control.
 std::optional<Repetition> read_repetition(const TomlTable& table, std::size_t before);
 
 /// The conditions of a stage that starts at this stress and strain.

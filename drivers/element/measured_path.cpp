@@ -9,11 +9,11 @@
 namespace drivers {
 namespace {
 
-constexpr double largest_strain = 3; // beyond it a percentage was read as a number
+constexpr double largest_strain = 3; // more is taken for a percentage read as a number
 
 struct Unit {
   const char* name;
-  char of; ///< e strain, s stress, t time
+  char kind; ///< e strain, s stress, t time
   double size;
 };
 constexpr Unit units[] = {{"1", 'e', 1},     {"percent", 'e', 0.01}, {"permille", 'e', 1e-3}, {"Pa", 's', 1},
@@ -26,14 +26,14 @@ struct Column {
   double factor;                  ///< unit and sign
 };
 
-double read_factor(const TomlTable& table, char of, double sign) {
+double read_factor(const TomlTable& table, char kind, double sign) {
   Words names;
   for (const auto& unit : units)
-    if (unit.of == of) names.emplace_back(unit.name);
+    if (unit.kind == kind) names.emplace_back(unit.name);
   const auto name = table.text("unit", names);
   const auto unit =
       std::find_if(std::begin(units), std::end(units), [&](const auto& u) { return u.name == name; });
-  return of == 't' ? unit->size : sign * unit->size;
+  return kind == 't' ? unit->size : sign * unit->size;
 }
 
 double read_sign(const TomlTable& table, std::string fallback) {
@@ -47,9 +47,9 @@ std::vector<Column> read_columns(const TomlTable& table, const CsvTable& csv) {
   std::vector<Column> columns;
   for (const auto& t : table.tables("columns", 1)) {
     const auto* quantity = find_linear_quantity(t.text("quantity", names));
-    const char of = !quantity ? 't' : quantity->is_strain ? 'e' : 's';
+    const char kind = !quantity ? 't' : quantity->is_strain ? 'e' : 's';
     const double own = quantity ? read_sign(t, sign > 0 ? "positive" : "negative") : 1;
-    columns.push_back({csv.column(t.text("column")), quantity, read_factor(t, of, own)});
+    columns.push_back({csv.column(t.text("column")), quantity, read_factor(t, kind, own)});
   }
   return columns;
 }
@@ -78,7 +78,7 @@ std::vector<MeasuredRow> read_rows(const CsvTable& csv, const std::vector<Column
   return rows;
 }
 
-/// Length of each row along the path, every column over its range.
+/// Arc length of the path at each row, every column divided by its range.
 std::vector<double> path_length(const std::vector<MeasuredRow>& rows) {
   const std::size_t n = rows.front().targets.size();
   std::vector<double> scale(n, 0.0), length{0};
@@ -97,7 +97,7 @@ std::vector<double> path_length(const std::vector<MeasuredRow>& rows) {
   return length;
 }
 
-/// `points` rows at equal distances along the path, the first and the last kept.
+/// `points` rows at equal distances along the path; the first and the last are those of the path.
 std::vector<MeasuredRow> resampled(const std::vector<MeasuredRow>& rows, long points) {
   const auto length = path_length(rows);
   std::vector<MeasuredRow> out;

@@ -14,7 +14,7 @@ Condition held_strain(const Vector6& w) {
   return {Vector6::Zero(), w, 0, false};
 }
 
-std::vector<Preset> made() {
+std::vector<Preset> preset_table() {
   const Vector6 none = Vector6::Zero(), trace = weights(1, 1, 1), cell = weights(0, 1, 0),
                 vertical = weights(1, 0, 0), side = weights(0, 0, 1);
   const auto s11 = held_stress(vertical), s22 = held_stress(cell), s33 = held_stress(side),
@@ -51,7 +51,7 @@ std::vector<Preset> made() {
 } // namespace
 
 const std::vector<Preset>& presets() {
-  static const auto table = made();
+  static const auto table = preset_table();
   return table;
 }
 

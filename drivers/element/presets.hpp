@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laboratory tests as rows of a table: what may drive them and what they hold. Manual: ELEMENT.md.
+// Laboratory tests as a table: what may drive them and what they hold. Manual: ELEMENT.md.
 #pragma once
 #include "drivers/element/condition.hpp"
 
 namespace drivers {
 
-/// Conditions that a test holds beside the one that drives it, and the total stress that is held if it is
+/// The conditions that a test holds besides the one that drives it, and the total stress that it holds if it is
 /// undrained. Shear strains 23 and 31 are held, and 12 where it is not driven.
 struct Preset {
   std::string name;

@@ -10,7 +10,7 @@ namespace {
 
 const Vector6 none = Vector6::Zero();
 
-/// Controls whose conditions the path file writes out, and how many; the others follow from symmetry.
+/// Controls whose conditions stand in the path file, and how many of them; the others follow from symmetry.
 struct General {
   const char* name;
   std::size_t conditions;
@@ -30,11 +30,11 @@ Condition read_condition(const TomlTable& table, bool driven_elsewhere) {
     if (c.is_final && table.has("change")) only_one_of(table, {"change", "final"});
     c.value = c.is_final ? table.number("final") : table.number("change", any_number, 0);
   }
-  table.finish(); // an unknown name is a better message than a condition that lacks it
+  table.finish(); // here, so that a misspelt quantity is named before its condition is found to be incomplete
   return c;
 }
 
-/// Whether the rows are independent, each over its largest weight.
+/// Whether the six conditions are linearly independent; each is divided by its largest weight.
 bool independent(const std::array<Condition, 6>& conditions) {
   Eigen::Matrix<double, 6, 12> all;
   for (int i = 0; i < 6; ++i) {
@@ -46,7 +46,7 @@ bool independent(const std::array<Condition, 6>& conditions) {
   return all.fullPivLu().rank() == 6;
 }
 
-/// What drives the stage, of one or more conditions: columns of a replay; a drive that cycles; a value.
+/// The condition that drives a preset: a column of a replay, a quantity that cycles, or one with a given value.
 std::vector<Condition> read_drives(const TomlTable& table, const Preset& preset, const Stage& stage) {
   if (stage.measured) {
     if (stage.measured->driven.size() != 1)
@@ -137,7 +137,6 @@ Words general_control_names() {
   return names;
 }
 
-/// The one of `keys` that the table has.
 std::string only_one_of(const TomlTable& table, const Words& keys) {
   std::string found;
   for (const auto& key : keys)

@@ -5,14 +5,13 @@
 
 namespace drivers {
 
-/// Reads what `control` asks for into the conditions and the held total stress of a stage whose `cyclic` or
-/// `replay` is read.
+/// Reads the conditions and the held total stress of a stage, whose `control`, `cyclic` and `replay` are read already.
 void read_conditions(const TomlTable& table, Stage& stage);
 
 /// Names of the controls whose conditions stand in the path file.
 Words general_control_names();
 
-/// The one of `keys` that the table has; an error if it has none, or several.
+/// The one of `keys` that the table has. Throws std::runtime_error with FILE:LINE if it has none, or several.
 std::string only_one_of(const TomlTable& table, const Words& keys);
 
 /// Six components.

@@ -11,7 +11,7 @@ void run_straight(LegRun& run) {
   run.write();
 }
 
-/// One direction of the drive, as far as its increments go, and the limits that end it sooner.
+/// Loading in one direction until a limit is met, or to the largest number of increments.
 Leg half_cycle(const LegRun& run, long number) {
   const auto& c = *run.stage.cycling;
   const bool upwards = (number % 2 == 0) == c.upwards;
@@ -26,7 +26,7 @@ Leg half_cycle(const LegRun& run, long number) {
 void run_cycles(LegRun& run) {
   const auto& c = *run.stage.cycling;
   for (long number = 0; number < 2 * c.cycles; ++number) {
-    run.reversal = c.strain->weights.dot(run.row.point.strain);
+    run.reversal_strain = c.strain->weights.dot(run.row.point.strain);
     const auto leg = half_cycle(run, number);
     const auto end = run.run(leg, true);
     if (end == LegEnd::limit) run.row.cycles += 0.5;
@@ -36,7 +36,7 @@ void run_cycles(LegRun& run) {
   }
 }
 
-/// Change of what is driven since the start of the stage, at a row of the measured path.
+/// Changes of the driven quantities since the start of the stage, at a row of the measured path.
 std::vector<double> changes(const LegRun& run, const MeasuredRow& row) {
   auto to = row.targets;
   for (std::size_t c = 0; c < to.size(); ++c)

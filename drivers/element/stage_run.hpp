@@ -11,16 +11,16 @@ using RowSink = std::function<void(const ElementRow&)>;
 /// What the stages of a test share.
 struct StageSetting {
   MaterialCaller& material;
-  const std::vector<Quantity>& columns;
+  const std::vector<OutputColumn>& columns;
   const std::optional<CriticalState>& critical;
   std::optional<double> initial_void_ratio;
   const NewtonOptions& newton;
   const RowSink& sink;
-  const std::string& failed_point; ///< file for the call that failed, to be replayed; empty: none
+  const std::string& failed_point; ///< file that receives a call that failed, to be repeated; empty: none
 };
 
-/// Takes `row` through the increments of a stage that is no envelope. Throws std::runtime_error naming stage,
-/// step, residual and its unit if one cannot be completed, after the row of the last one that could.
+/// Takes `row` through the increments of a stage that is no envelope. If an increment cannot be completed, writes the
+/// row of the last one and throws std::runtime_error naming stage, step, residual and its unit.
 void run_stage(const StageSetting& setting, const Stage& stage, ElementRow& row);
 
 } // namespace drivers

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/material/caller.hpp"
+#include "host/material/point_block.hpp"
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ Vector6 components(const Eigen::Matrix3d& t) {
 
 constexpr int shear = 3; // components
 
-void put_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
+void pack_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
   const int n = b.points;
   host::put_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
   host::put_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
@@ -39,13 +40,8 @@ void put_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
   for (int s = 0; s < shear; ++s) b.spin_increment[s * n + k] = motion.spin[s];
 }
 
-void put(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
-  const int n = b.points;
-  for (int c = 0; c < 6; ++c) {
-    b.strain_increment[c * n + k] = -increment[c];
-    b.stress_old[c * n + k] = -from.stress[c];
-  }
-  for (int c = 0; c < b.state_variables; ++c) b.state_old[c * n + k] = from.state[c];
+void pack_increment(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
+  host::pack_point({from.stress.data(), 6}, {increment.data(), 6}, from.state, k, b);
   // The convention's density is that in the middle of the increment.
   b.density[k] = from.initial_density * std::exp(volumetric_strain(from.strain + 0.5 * increment));
   b.internal_energy_old[k] = from.internal_energy;
@@ -53,12 +49,11 @@ void put(const PointState& from, const Vector6& increment, int k, host::VumatBlo
   b.char_length[k] = 1; // m; one element of unit size
 }
 
-PointState taken(const PointState& from, const Vector6& increment, double dt, int k,
-                 const host::VumatBlock& b) {
-  const int n = b.points;
+PointState unpacked_answer(const PointState& from, const Vector6& increment, double dt, int k,
+                           const host::VumatBlock& b) {
   PointState to = from;
-  for (int c = 0; c < 6; ++c) to.stress[c] = -b.stress_new[c * n + k];
-  for (int c = 0; c < b.state_variables; ++c) to.state[c] = b.state_new[c * n + k];
+  host::unpack_stress(b, k, {to.stress.data(), 6});
+  host::unpack_state(b, k, to.state);
   to.strain = from.strain + increment;
   to.internal_energy = b.internal_energy_new[k];
   to.inelastic_energy = b.inelastic_energy_new[k];
@@ -110,9 +105,9 @@ host::VumatBlock& MaterialCaller::block(int points) {
 
 void MaterialCaller::pack(const PointState& from, const Vector6& increment, int k,
                           host::VumatBlock& b) const {
-  put(from, increment, k, b);
+  pack_increment(from, increment, k, b);
   if (material.frame == host::Frame::green_naghdi)
-    put_motion(host::strained(from.gradient, -tensor(increment)), k, b);
+    pack_motion(host::strained(from.gradient, -tensor(increment)), k, b);
 }
 
 void MaterialCaller::call(const host::Increment& increment, std::size_t first, host::VumatBlock& b) {
@@ -142,7 +137,7 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
     const double end = start(first).time + dt;
     call({end, end, dt}, first, b);
     for (int k = 0; k < n; ++k) {
-      answers.push_back(taken(start(first + k), increments[first + k], dt, k, b));
+      answers.push_back(unpacked_answer(start(first + k), increments[first + k], dt, k, b));
       if (material.frame == host::Frame::green_naghdi) answers.back().gradient = b.kept_gradient[k];
     }
   }
@@ -152,11 +147,11 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
 PointState MaterialCaller::follow(const PointState& from, const host::Kinematics& motion, double dt) {
   host::VumatBlock b(material, 1, shear); // not one of those that show unity
   const Vector6 increment = -components(motion.strain);
-  put(from, increment, 0, b);
-  put_motion(motion, 0, b);
+  pack_increment(from, increment, 0, b);
+  pack_motion(motion, 0, b);
   const double end = from.time + dt;
   call({end, end, dt}, 0, b);
-  auto to = taken(from, increment, dt, 0, b);
+  auto to = unpacked_answer(from, increment, dt, 0, b);
   to.gradient = motion.gradient_new;
   return to;
 }
@@ -168,7 +163,7 @@ Matrix6 MaterialCaller::elastic_stiffness(const PointState& from) {
   call({0, 0, 1}, 0, b);
   Matrix6 stiffness;
   for (int k = 0; k < 6; ++k)
-    stiffness.col(k) = (taken(from, Vector6::Zero(), 0, k, b).stress - from.stress) / probe;
+    stiffness.col(k) = (unpacked_answer(from, Vector6::Zero(), 0, k, b).stress - from.stress) / probe;
   return stiffness;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/material/reproducer.hpp"
+#include "host/material/point_block.hpp"
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
@@ -91,14 +92,8 @@ int first_failure(const VumatBlock& b, int failure_state) {
   if (failure_state >= 0)
     for (int k = 0; k < b.points; ++k) sound &= !(b.state_new[failure_state * b.points + k] < 0);
   if (sound) return -1;
-  for (int k = 0; k < b.points; ++k) {
-    double all = 0; // not finite if any of them is not
-    for (std::size_t c = k; c < b.stress_new.size(); c += b.points) all += b.stress_new[c] * 0;
-    for (std::size_t c = k; c < b.state_new.size(); c += b.points) all += b.state_new[c] * 0;
-    all += b.internal_energy_new[k] * 0 + b.inelastic_energy_new[k] * 0;
-    if (!std::isfinite(all)) return k;
-    if (failure_state >= 0 && b.state_new[failure_state * b.points + k] < 0) return k;
-  }
+  for (int k = 0; k < b.points; ++k)
+    if (!is_usable(b, k, failure_state)) return k;
   return -1;
 }
 

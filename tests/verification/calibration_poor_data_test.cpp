@@ -20,7 +20,7 @@ struct Row {
 /// A drained test on dense SS at 10 kPa.
 struct Sheet {
   std::vector<Row> rows;
-  Specimen specimen{TestKind::triaxial_drained, 0.58, 10e3, 10e3, 0.3};
+  Specimen specimen{drivers::find_axisymmetric_test("triaxial-drained"), 0.58, 10e3, 10e3, 0.3};
   double q_unit = 1, strain_unit = 1, volume_unit = 1; ///< of a number in the file, SI
 };
 

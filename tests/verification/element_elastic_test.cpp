@@ -183,7 +183,7 @@ TEST(ElementElastic, AnotherMaterialMayNameItsCriticalState) {
   const auto stage = stage_text("triaxial-drained", "axial_strain = 1e-3\nincrements = 2\n");
   const auto names = [](const ElementCase& element) {
     std::vector<std::string> out;
-    for (const auto& q : quantities(element.material, element.critical)) out.push_back(q.name);
+    for (const auto& q : output_columns(element.material, element.critical)) out.push_back(q.name);
     return out;
   };
   const auto has = [](const std::vector<std::string>& all, const char* name) {
