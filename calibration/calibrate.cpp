@@ -29,7 +29,8 @@ void run_coverage(const Fit& fit, const CalibrateOptions& options) {
         "{}: --coverage needs the tables [synthetic], with noise above 0, and [sampling]", fit.file_name));
   const auto start = Clock::now();
   const auto file = (std::filesystem::path(fit.output_folder) / "coverage.csv").string();
-  const auto earlier = options.resume && std::filesystem::exists(file) ? read_coverage(fit, file) : Coverage{};
+  const auto earlier =
+      options.resume && std::filesystem::exists(file) ? read_coverage(fit, file) : Coverage{};
   int before = -1; // number of sets taken from the file
   const auto coverage = study_coverage(fit, options.coverage, earlier, [&](const Coverage& now, int done) {
     if (before < 0) before = done - 1;
@@ -74,8 +75,9 @@ void calibrate(const CalibrateOptions& options) {
                                  {file, options.resume, progress_line(options.quiet)});
     predict_bands(objective, *fit.sampling, *posterior);
   }
-  const Result result{objective,           best, identifiability, posterior ? &*posterior : nullptr, options.command,
-                      seconds_since(start)};
+  const Result result{objective,       best,
+                      identifiability, posterior ? &*posterior : nullptr,
+                      options.command, seconds_since(start)};
   const auto files = write_report(result);
   fmt::print("{}\n", report_text(result));
   for (const auto& file : files) fmt::print("{}\n", file);

@@ -233,7 +233,8 @@ double slowest_walker(const Chain& chain) {
   return slowest;
 }
 
-void check_thresholds(Diagnosis& d, const Chain& chain, const std::vector<std::string>& names, const Thresholds& t) {
+void check_thresholds(Diagnosis& d, const Chain& chain, const std::vector<std::string>& names,
+                      const Thresholds& t) {
   auto& reasons = d.verdict.reasons;
   if (chain.steps < t.steps)
     reasons.push_back(fmt::format("{} kept steps of each walker, {} needed", chain.steps, t.steps));
@@ -251,10 +252,10 @@ void check_thresholds(Diagnosis& d, const Chain& chain, const std::vector<std::s
       reasons.push_back(fmt::format("{}: R-hat {:.3f}, below {} needed", name, m.rhat, t.rhat));
     if (!(m.bulk_size >= t.effective_size))
       reasons.push_back(fmt::format("{}: {:.0f} effective samples of the centre, {:.0f} needed", name,
-                                m.bulk_size, t.effective_size));
+                                    m.bulk_size, t.effective_size));
     if (!(m.tail_size >= t.effective_size))
-      reasons.push_back(fmt::format("{}: {:.0f} effective samples of the tails, {:.0f} needed", name, m.tail_size,
-                                t.effective_size));
+      reasons.push_back(fmt::format("{}: {:.0f} effective samples of the tails, {:.0f} needed", name,
+                                    m.tail_size, t.effective_size));
   }
   d.verdict.converged = reasons.empty();
 }

@@ -44,8 +44,9 @@ struct Synthetic {
 
 struct Fit {
   std::string title, file_name;
-  drivers::LoadedMaterial material; ///< gives the fixed parameters; the report compares its parameters with the result
-  std::string material_source;      ///< path of the material file
+  drivers::LoadedMaterial
+      material; ///< gives the fixed parameters; the report compares its parameters with the result
+  std::string material_source; ///< path of the material file
   double grain_density = 0;
   std::vector<FreeParameter> unknowns;
   std::vector<LabTest> tests;

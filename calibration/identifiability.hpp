@@ -17,9 +17,9 @@ struct Combination {
 enum class Finding { determined, weak, undetermined, at_lower_bound, at_upper_bound };
 
 struct Identifiability {
-  Eigen::MatrixXd covariance;  ///< of u; the bounds act as a prior of variance range^2 / 12
-  Eigen::MatrixXd correlation; ///< of u
-  Eigen::VectorXd deviation;   ///< of u over its range
+  Eigen::MatrixXd covariance;            ///< of u; the bounds act as a prior of variance range^2 / 12
+  Eigen::MatrixXd correlation;           ///< of u
+  Eigen::VectorXd deviation;             ///< of u over its range
   std::vector<Combination> combinations; ///< best determined first
   std::vector<Finding> findings;         ///< one for each parameter
   double inflation = 1; ///< factor on the covariance: chi squared over degrees of freedom where above 1

@@ -17,7 +17,8 @@ namespace {
 constexpr double difference_step = 1e-3;   // of y, and of u over its range
 constexpr double first_model_error = 0.05; // of the peak, where it is free
 constexpr int refinements = 4;
-constexpr double least_gain = 1e-6; // of the cost, relative, by one iteration; three smaller ones end a search
+constexpr double least_gain =
+    1e-6; // of the cost, relative, by one iteration; three smaller ones end a search
 
 struct Box {
   Eigen::VectorXd middle, half; ///< of the unknowns of the material

@@ -44,7 +44,7 @@ double half_log_determinant(const Eigen::MatrixXd& factor) {
 /// Start with centres far from each other: each is a point drawn with a probability proportional to its squared distance
 /// from the nearest earlier centre (k-means++, Arthur and Vassilvitskii 2007).
 NormalMixture distant_centres(const Eigen::MatrixXd& points, const Eigen::MatrixXd& pooled, int components,
-                           RandomStream& random) {
+                              RandomStream& random) {
   NormalMixture m;
   const Eigen::LLT<Eigen::MatrixXd> factor(pooled);
   Eigen::VectorXd distance;
@@ -96,7 +96,8 @@ void maximise(NormalMixture& m, const Eigen::MatrixXd& points, const Eigen::Matr
     m.centre[k] = points.lazyProduct(part.col(k)) / count;
     const Eigen::MatrixXd away = points.colwise() - m.centre[k];
     const Eigen::MatrixXd weighted = away * part.col(k).asDiagonal();
-    m.covariance[k] = (weighted.lazyProduct(away.transpose()) + prior_points * prior) / (count + prior_points);
+    m.covariance[k] =
+        (weighted.lazyProduct(away.transpose()) + prior_points * prior) / (count + prior_points);
   }
 }
 
@@ -172,11 +173,11 @@ StudentMixture fit_mixture(const Eigen::Ref<const Eigen::MatrixXd>& points, int 
   const Eigen::MatrixXd pooled = covariance_of(points);
   const Eigen::VectorXd scale = pooled.diagonal().cwiseSqrt();
   const bool in_subspace = !(scale.minCoeff() > 0) ||
-                    (scale.cwiseInverse().asDiagonal() * pooled * scale.cwiseInverse().asDiagonal())
-                            .eval()
-                            .selfadjointView<Eigen::Lower>()
-                            .eigenvalues()
-                            .minCoeff() < 1e-13;
+                           (scale.cwiseInverse().asDiagonal() * pooled * scale.cwiseInverse().asDiagonal())
+                                   .eval()
+                                   .selfadjointView<Eigen::Lower>()
+                                   .eigenvalues()
+                                   .minCoeff() < 1e-13;
   if (in_subspace) throw std::runtime_error("points of the sampler lie in a subspace");
   NormalMixture best = fit_normal(points, pooled, 1, random);
   for (int k = 2, worse = 0; k <= most && worse < 2; ++k) {

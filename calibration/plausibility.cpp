@@ -77,10 +77,10 @@ struct Checks {
     }
     // At 3 and -1.5 a principal stress is 0. A friction angle of 70 degrees in compression: 2.74.
     if (known && (most > 2.75 || least < -1.45))
-      fail(fmt::format(
-          "a stress ratio q/p of {:.3g} is beyond any friction angle: check the columns, the units of stress and "
-          "the confining stress of {:g} Pa",
-          most > 2.75 ? most : least, specimen.radial_stress));
+      fail(fmt::format("a stress ratio q/p of {:.3g} is beyond any friction angle: check the columns, the "
+                       "units of stress and "
+                       "the confining stress of {:g} Pa",
+                       most > 2.75 ? most : least, specimen.radial_stress));
     if (known && std::max(most, -least) < 0.05)
       fail(fmt::format(
           "the stress ratio q/p does not exceed {:.2g}: check the columns, the units of stress and the "
@@ -94,7 +94,8 @@ struct Checks {
       const auto* values = given(m);
       if (!values) return;
       const double first = values->front();
-      const double allowed = held ? 0.2 : 2; // relative; the first row of a stiff sand may be far from the start
+      const double allowed =
+          held ? 0.2 : 2; // relative; the first row of a stiff sand may be far from the start
       if (!(first > declared * (1 - std::min(allowed, 0.8)) && first < declared * (1 + allowed)))
         fail(fmt::format("{} begins at {:.4g} Pa where {:.4g} Pa is declared: check units and stress",
                          info(m).key, first, declared));
@@ -123,7 +124,8 @@ struct Checks {
     if (!e) return;
     for (double v : *e)
       if (!(v > 0.1 && v < 1.9))
-        fail(fmt::format("a void ratio of {:.3g} is impossible for sand: is it a porosity, or in per cent?", v));
+        fail(fmt::format("a void ratio of {:.3g} is impossible for sand: is it a porosity, or in per cent?",
+                         v));
     if (std::abs(e->front() - specimen.void_ratio) > 0.02 + 0.5 * std::abs(raw.strain.front()))
       fail(fmt::format("the void ratio begins at {:.4g} where {:.4g} is declared", e->front(),
                        specimen.void_ratio));
@@ -146,7 +148,8 @@ struct Checks {
           ((curve.measure == Measure::volumetric_strain || curve.measure == Measure::void_ratio) &&
            specimen.kind->holds("volumetric_strain"));
       if (held)
-        fail(fmt::format("{} is held constant in this kind of test: it cannot be compared", info(curve.measure).key));
+        fail(fmt::format("{} is held constant in this kind of test: it cannot be compared",
+                         info(curve.measure).key));
       if (*high - *low <= 1e-3 * std::max(std::abs(*high), std::abs(*low)) || *high == *low)
         fail(fmt::format("{} is constant, {:.4g}, over the whole test: a dead sensor, or the wrong column",
                          info(curve.measure).key, *low));

@@ -21,8 +21,8 @@ Stream new_stream(std::uint64_t seed) {
 
 /// Points about the best fit, within the bounds: normal with three times the standard deviations of its covariance, and
 /// with a deviation of 0.7 in the logarithm of model errors.
-Eigen::MatrixXd first_points(const Objective& objective, const BestFit& best, const Identifiability& identifiability,
-                             const SamplingOptions& options) {
+Eigen::MatrixXd first_points(const Objective& objective, const BestFit& best,
+                             const Identifiability& identifiability, const SamplingOptions& options) {
   const auto& unknowns = objective.fit.unknowns;
   const Eigen::Index all = Eigen::Index(unknowns.size()), d = objective.fit.parameters();
   const int count = std::max(2 * options.walkers, int(10 * all));
@@ -37,7 +37,8 @@ Eigen::MatrixXd first_points(const Objective& objective, const BestFit& best, co
     Eigen::VectorXd u = best.best.end;
     u.head(d) += 3 * root * normal.head(d);
     u.tail(all - d) += 0.7 * normal.tail(all - d);
-    for (Eigen::Index i = 0; i < all; ++i) { // reflected at the bounds; if that does not help, uniform within them
+    for (Eigen::Index i = 0; i < all;
+         ++i) { // reflected at the bounds; if that does not help, uniform within them
       const double low = unknowns[i].lowest(), high = unknowns[i].highest();
       if (u[i] < low) u[i] = 2 * low - u[i];
       if (u[i] > high) u[i] = 2 * high - u[i];
@@ -98,8 +99,9 @@ std::string fingerprint(const Objective& objective) {
   return fmt::format("{:016x}", hash);
 }
 
-Posterior sample_posterior(const Objective& objective, const BestFit& best, const Identifiability& identifiability,
-                           const SamplingOptions& options, const ChainRun& run) {
+Posterior sample_posterior(const Objective& objective, const BestFit& best,
+                           const Identifiability& identifiability, const SamplingOptions& options,
+                           const ChainRun& run) {
   const auto& unknowns = objective.fit.unknowns;
   SamplerOptions sampler;
   sampler.walkers = options.walkers;
@@ -120,8 +122,9 @@ Posterior sample_posterior(const Objective& objective, const BestFit& best, cons
   checkpoint.names = out.names;
   checkpoint.fingerprint = fingerprint(objective);
   checkpoint.resume = run.resume;
-  out.chain = sample([&](const auto& points) { return objective.log_posterior(points); },
-                     first_points(objective, best, identifiability, options), sampler, checkpoint, run.progress);
+  out.chain =
+      sample([&](const auto& points) { return objective.log_posterior(points); },
+             first_points(objective, best, identifiability, options), sampler, checkpoint, run.progress);
   Chain values = out.chain; // values in place of coordinates, which the diagnosis refers to
   const std::size_t d = unknowns.size();
   for (std::size_t i = 0; i < values.samples.size(); ++i)

@@ -9,7 +9,8 @@ namespace calibration {
 
 /// Quantiles of 5, 50 and 95 % over the rows of one curve.
 struct Band {
-  std::vector<double> model_lower, model_median, model_upper; ///< of the model's curve, by the parameters alone
+  std::vector<double> model_lower, model_median,
+      model_upper;                  ///< of the model's curve, by the parameters alone
   std::vector<double> lower, upper; ///< of a measured value, with the errors of model and measurement
   double coverage = 0;              ///< part of the measured values between lower and upper
 };
@@ -30,8 +31,9 @@ struct ChainRun {
 };
 
 /// Samples about the best fit, whose covariance gives the first points. Throws std::runtime_error.
-Posterior sample_posterior(const Objective& objective, const BestFit& best, const Identifiability& identifiability,
-                           const SamplingOptions& options, const ChainRun& run = {});
+Posterior sample_posterior(const Objective& objective, const BestFit& best,
+                           const Identifiability& identifiability, const SamplingOptions& options,
+                           const ChainRun& run = {});
 
 /// Bands over all curves.
 void predict_bands(const Objective& objective, const SamplingOptions& options, Posterior& posterior);

@@ -33,7 +33,8 @@ std::vector<ParameterSet> drawn_sets(const PropagateOptions& options, const Stor
   std::vector<ParameterSet> sets;
   for (const auto row : draw_rows(posterior, options.sets, options.seed)) {
     const auto name = fmt::format("{:03}", sets.size() + 1);
-    ParameterSet set{row, {name, options.scene, options.study.folder + "/sets/" + name, options.settings}, {}};
+    ParameterSet set{
+        row, {name, options.scene, options.study.folder + "/sets/" + name, options.settings}, {}};
     for (std::size_t k = 0; k < posterior.names.size(); ++k)
       set.run.settings.push_back(
           fmt::format("material.{}={}", posterior.names[k], drivers::toml_number(posterior.samples[row][k])));
@@ -82,7 +83,8 @@ Quantiles quantiles(std::vector<double> values) {
   return {at(0.05), at(0.5), at(0.95)};
 }
 
-std::vector<double> over_sets(const std::vector<ParameterSet>& sets, const std::function<double(const ParameterSet&)>& value) {
+std::vector<double> over_sets(const std::vector<ParameterSet>& sets,
+                              const std::function<double(const ParameterSet&)>& value) {
   std::vector<double> values;
   for (const auto& set : sets)
     if (set.deposit) values.push_back(value(set));
@@ -110,7 +112,8 @@ std::string bands_table(const std::vector<std::pair<std::string, Quantiles>>& ba
 
 /// Bands of curves at equally spaced places from 0 to `end`. Beyond its own end a curve keeps its last value if
 /// `keep_last`, otherwise it is 0.
-std::string curve_bands(const std::vector<ParameterSet>& sets, const std::string& header, double end, bool keep_last,
+std::string curve_bands(const std::vector<ParameterSet>& sets, const std::string& header, double end,
+                        bool keep_last,
                         const std::function<const drivers::Outline&(const ParameterSet&)>& curve) {
   constexpr int parts = 200;
   std::string text = header + ",lower_5,median,upper_95\n";
@@ -130,9 +133,10 @@ void write_curves(const std::vector<ParameterSet>& sets, double radius, const fs
   const auto reaches = over_sets(sets, [](const ParameterSet& s) { return s.deposit->radius; });
   const double end = *std::max_element(ends.begin(), ends.end());
   const double reach = 1.1 * radius * *std::max_element(reaches.begin(), reaches.end());
-  host::write_whole(folder / "outline_bands.csv",
-                    curve_bands(sets, "radius_m", reach, false,
-                                [](const ParameterSet& s) -> const drivers::Outline& { return s.deposit->outline; }));
+  host::write_whole(
+      folder / "outline_bands.csv",
+      curve_bands(sets, "radius_m", reach, false,
+                  [](const ParameterSet& s) -> const drivers::Outline& { return s.deposit->outline; }));
   host::write_whole(folder / "height_bands.csv",
                     curve_bands(sets, "time_s", end, true,
                                 [](const ParameterSet& s) -> const drivers::Outline& { return s.history; }));

@@ -7,9 +7,12 @@
 namespace calibration {
 namespace {
 
-constexpr double jitter = 1e-3; ///< normal noise added to a difference, in spreads: makes every point reachable
-constexpr double subset_moves = 0.2, subset_part = 0.3; ///< part of the differences in a subset; part of dimensions in it
-constexpr double short_moves = 0.3, short_factor = 0.2; ///< part of the differences that are shortened, for thin tails
+constexpr double jitter =
+    1e-3; ///< normal noise added to a difference, in spreads: makes every point reachable
+constexpr double subset_moves = 0.2,
+                 subset_part = 0.3; ///< part of the differences in a subset; part of dimensions in it
+constexpr double short_moves = 0.3,
+                 short_factor = 0.2; ///< part of the differences that are shortened, for thin tails
 constexpr int most_components = 10;  ///< of the mixture
 constexpr int most_fitted = 2000;    ///< points of the archive that the mixture is fitted to
 
@@ -46,7 +49,8 @@ Eigen::VectorXd mode_jump(const ProposalKernel& kernel, const Eigen::VectorXd& f
 /// and the ratio (|x' - z| / |x - z|)^(d - 1) of eq. 4.
 Proposal snooker(const ProposalKernel& kernel, const Eigen::VectorXd& from, RandomStream& random) {
   const double factor = 1.2 + random.uniform();
-  const auto z = random_point(kernel, random), one = random_point(kernel, random), other = random_point(kernel, random);
+  const auto z = random_point(kernel, random), one = random_point(kernel, random),
+             other = random_point(kernel, random);
   const Eigen::VectorXd line = from - z;
   const double before = line.norm();
   if (before == 0) return {Move::snooker, from, -std::numeric_limits<double>::infinity()};

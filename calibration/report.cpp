@@ -129,8 +129,9 @@ std::vector<std::string> warnings(const Result& r) {
   for (const auto& c : r.identifiability.combinations)
     if (!c.determined) out.push_back("these tests do not determine " + combination_text(c, fit.unknowns));
   if (r.fit.degrees <= 0)
-    out.push_back(fmt::format("{} parameters from no more independent values: the misfit says nothing about the errors",
-                              fit.parameters()));
+    out.push_back(
+        fmt::format("{} parameters from no more independent values: the misfit says nothing about the errors",
+                    fit.parameters()));
   const auto all = misfits(r.objective, r.fit.best.end);
   for (std::size_t k = 0; k < all.size(); ++k)
     if (all[k].in_errors > largest_misfit)
@@ -140,8 +141,9 @@ std::vector<std::string> warnings(const Result& r) {
                                 k >= r.objective.fitted_curves ? " (held out)" : ""));
   const auto same = searches_at_best(r.fit);
   if (r.fit.searches.size() > 1 && same < 2)
-    out.push_back(fmt::format("only 1 of {} searches ended at the best optimum: more starts may find a better one",
-                              r.fit.searches.size()));
+    out.push_back(
+        fmt::format("only 1 of {} searches ended at the best optimum: more starts may find a better one",
+                    r.fit.searches.size()));
   if (!r.fit.best.converged)
     out.push_back("the last search stopped before it converged: more iterations may help");
   if (r.posterior && !r.posterior->diagnosis.verdict.converged)

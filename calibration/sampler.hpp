@@ -20,10 +20,11 @@ namespace calibration {
 using LogDensity = std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::MatrixXd>& points)>;
 
 struct SamplerOptions {
-  int walkers = 32;       ///< at least 4; points evaluated at once
-  int burn_in = 1000;     ///< steps of every walker that adapt and are not kept; at least 100 per dimension advised
-  int steps = 2000;       ///< kept steps of every walker: walkers * steps samples
-  int thinning = 1;       ///< steps made for every step kept
+  int walkers = 32; ///< at least 4; points evaluated at once
+  int burn_in =
+      1000;         ///< steps of every walker that adapt and are not kept; at least 100 per dimension advised
+  int steps = 2000; ///< kept steps of every walker: walkers * steps samples
+  int thinning = 1; ///< steps made for every step kept
   std::uint64_t seed = 1; ///< of the random stream
   Eigen::VectorXd lower;  ///< hard bounds, empty or one for each dimension; points beyond are not evaluated
   Eigen::VectorXd upper;
@@ -34,8 +35,9 @@ struct Checkpoint {
   std::filesystem::path file; ///< HDF5, calibration/chain_file.hpp; replaced as a whole, never half written
   double interval = 20;       ///< seconds between two writings
   std::vector<std::string> names; ///< of the dimensions
-  std::string fingerprint; ///< of data, priors, fixed parameters, model; must be equal for a run to be resumed
-  bool resume = true;      ///< continue from the file if it exists; false: an existing file is an error
+  std::string
+      fingerprint;    ///< of data, priors, fixed parameters, model; must be equal for a run to be resumed
+  bool resume = true; ///< continue from the file if it exists; false: an existing file is an error
 };
 
 /// The kept samples. Walker w, kept step s.

@@ -14,8 +14,8 @@ struct StoredPosterior {
   std::filesystem::path file;
   drivers::Words names;                     ///< keys of the material that were sampled
   std::vector<std::vector<double>> samples; ///< values, one row a sample
-  std::map<std::string, double> fixed; ///< values of SIMSAND's other keys in the fit
-  bool converged = false;              ///< by the diagnosis of the fit
+  std::map<std::string, double> fixed;      ///< values of SIMSAND's other keys in the fit
+  bool converged = false;                   ///< by the diagnosis of the fit
 };
 
 /// Reads the samples without the model errors. Throws std::runtime_error naming the file if it is no result of a fit, has

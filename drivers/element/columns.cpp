@@ -45,7 +45,7 @@ double void_ratio_after(double initial, const Vector6& strain) {
 }
 
 std::vector<OutputColumn> output_columns(const LoadedMaterial& material,
-                                 const std::optional<CriticalState>& critical) {
+                                         const std::optional<CriticalState>& critical) {
   std::vector<OutputColumn> q;
   q.push_back({"time", "s", [](Row r) { return r.point.time; }});
   add_components(q);

@@ -28,7 +28,7 @@ struct OutputColumn {
 
 /// All columns after stage and step. Void ratio, critical state and state variables are those the material has.
 std::vector<OutputColumn> output_columns(const LoadedMaterial& material,
-                                 const std::optional<CriticalState>& critical = {});
+                                         const std::optional<CriticalState>& critical = {});
 
 /// Void ratio after the strain alone: d e = -(1 + e) d eps_v.
 double void_ratio_after(double initial, const Vector6& strain);

@@ -8,8 +8,8 @@
 namespace drivers {
 namespace {
 
-host::Kinematics motion_between(const DrivenMotion& motion, const host::Tensor& at_start, double from, double to,
-                        const host::Tensor& now) {
+host::Kinematics motion_between(const DrivenMotion& motion, const host::Tensor& at_start, double from,
+                                double to, const host::Tensor& now) {
   if (motion.by_velocity) return host::carried_along(now, (to - from) * motion.value);
   const host::Tensor target = at_start + to * (motion.value - at_start);
   if (!(target.determinant() > 0))

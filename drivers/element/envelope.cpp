@@ -23,8 +23,8 @@ double degrees(double angle) {
 
 /// Takes each point through one increment.
 void advance_all(MaterialCaller& material, const std::vector<Vector6>& increments, double dt,
-             const std::vector<double>& angles, const std::string& failed_point,
-             std::vector<PointState>& points) {
+                 const std::vector<double>& angles, const std::string& failed_point,
+                 std::vector<PointState>& points) {
   points = material.respond(points, increments, dt);
   if (std::all_of(points.begin(), points.end(), [&](const auto& p) { return material.usable(p); })) return;
   throw std::runtime_error(fmt::format("direction {:.6g} degrees: {}", degrees(angles[material.failed_point]),

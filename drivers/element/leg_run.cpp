@@ -26,7 +26,8 @@ LegRun::LegRun(const StageSetting& setting, const Stage& stage, ElementRow& row)
       setting(setting), stiffness(setting.material.elastic_stiffness(row.point)),
       scale(scale_of(row.point.stress, stiffness)), stops(bounds_of(stage.stops, setting.columns)) {}
 
-StepReport LegRun::advance_row(const Leg& leg, double from, double to, ElementRow& at, Matrix6& tangent) const {
+StepReport LegRun::advance_row(const Leg& leg, double from, double to, ElementRow& at,
+                               Matrix6& tangent) const {
   const auto report = stage.motion ? follow(setting.material, *stage.motion, start.point.gradient, from, to,
                                             leg.duration, at.point)
                                    : advance(setting.material, leg.control, from, to, leg.duration, scale,

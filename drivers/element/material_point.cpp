@@ -69,7 +69,7 @@ struct NewtonSolve {
   Vector6 correction(const TrialIncrement& from) const {
     const Vector6 weight = tolerances(from.answer).cwiseInverse();
     const bool no_stiffness = stiffness.cwiseAbs().maxCoeff() < 1e-9 * scale.modulus &&
-                      stress_level(start.stress) <= options.lowest_level * scale.stress;
+                              stress_level(start.stress) <= options.lowest_level * scale.stress;
     const Matrix6 used = no_stiffness ? Matrix6(scale.modulus * Matrix6::Identity()) : stiffness;
     const Matrix6 system = weight.asDiagonal() * (control.stress * used + control.strain);
     return -system.partialPivLu().solve(weight.cwiseProduct(from.residual));
@@ -175,7 +175,8 @@ StepReport advance(MaterialCaller& material, const MixedControl& control, double
     report.fraction = target;
     if (step / 2 < smallest) {
       report.converged = false;
-      if (report.finite && !report.refused) { // the residual at the end of the whole increment, not of its last part
+      if (report.finite &&
+          !report.refused) { // the residual at the end of the whole increment, not of its last part
         const NewtonSolve whole{material, control,   options, point, to, (to - at) * duration,
                                 scale,    stiffness, report};
         whole.record(whole.evaluated(Vector6::Zero(), point));

@@ -14,10 +14,11 @@ struct MixedControl {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-9;    ///< of each condition, relative to the stress level
-  int max_iterations = 20;    ///< before the increment is cut in half
-  int max_cuts = 16;          ///< halvings of one increment
-  double lowest_level = 1e-6; ///< smallest stress level that the tolerance refers to, relative to StageScale::stress
+  double tolerance = 1e-9; ///< of each condition, relative to the stress level
+  int max_iterations = 20; ///< before the increment is cut in half
+  int max_cuts = 16;       ///< halvings of one increment
+  double lowest_level =
+      1e-6; ///< smallest stress level that the tolerance refers to, relative to StageScale::stress
 };
 
 /// What an increment took, and how it failed if it did.

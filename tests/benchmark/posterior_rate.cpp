@@ -28,7 +28,8 @@ Eigen::MatrixXd near_material(const Fit& fit) {
   for (Eigen::Index d = 0; d < points.rows(); ++d) {
     const auto& p = fit.unknowns[std::size_t(d)];
     if (p.property < 0) continue; // an error of the model: anywhere within its bounds
-    const double value = std::clamp(fit.material.material.properties[std::size_t(p.property)], p.lower, p.upper);
+    const double value =
+        std::clamp(fit.material.material.properties[std::size_t(p.property)], p.lower, p.upper);
     const double middle = 0.5 * (p.lowest() + p.highest());
     for (double& u : points.row(d))
       u = std::clamp(p.coordinate(value) + 2 * scatter * (u - middle), p.lowest(), p.highest());

@@ -112,8 +112,8 @@ TEST(Simulator, TestsDoNotSeeEachOther) {
   const auto& kinds = drivers::axisymmetric_tests();
   std::vector<Specimen> specimens;
   for (int i = 0; i < 150; ++i) // more than a block holds
-    specimens.push_back({&kinds[i % kinds.size()], 0.58 + 0.001 * i, 2e3 + 50 * i, 2e3 + 50 * i,
-                         i % 2 ? 0.05 : -0.03});
+    specimens.push_back(
+        {&kinds[i % kinds.size()], 0.58 + 0.001 * i, 2e3 + 50 * i, 2e3 + 50 * i, i % 2 ? 0.05 : -0.03});
   Simulator together(material, specimens);
   const auto paths = together.run(material.material.properties);
   for (const int i : {0, 1, 77, 149}) {
