@@ -2,6 +2,7 @@
 #include "calibration/coverage.hpp"
 #include "calibration/posterior.hpp"
 #include "drivers/files/csv_table.hpp"
+#include "drivers/files/csv_write.hpp"
 #include <algorithm>
 #include <exception>
 #include <fmt/format.h>
@@ -88,15 +89,16 @@ std::uint32_t hash_of(const Fit& fit) {
 } // namespace
 
 std::string coverage_csv(const Fit& fit, const Coverage& coverage) {
-  std::string out = fmt::format(
-      "# fit: {}\ndata_set,parameter,truth,lower_90,upper_90,mean,best,converged,inside\n", hash_of(fit));
+  drivers::CsvWriter csv("data_set,parameter,truth,lower_90,upper_90,mean,best,converged,inside",
+                         {fmt::format("fit: {}", hash_of(fit))});
+  const auto number = [](double value) { return drivers::Rounded{value, 8}; };
   for (std::size_t k = 0; k < coverage.sets.size(); ++k)
     for (std::size_t d = 0; d < coverage.sets[k].size(); ++d) {
       const auto& c = coverage.sets[k][d];
-      out += fmt::format("{},{},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{},{}\n", k + 1, coverage.names[d],
-                         c.truth, c.lower, c.upper, c.mean, c.best, int(c.converged), int(c.inside()));
+      csv.row(k + 1, coverage.names[d], number(c.truth), number(c.lower), number(c.upper), number(c.mean),
+              number(c.best), c.converged, c.inside());
     }
-  return out;
+  return csv.text();
 }
 
 Coverage read_coverage(const Fit& fit, const std::string& file) {

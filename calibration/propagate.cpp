@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/propagate.hpp"
 #include "calibration/stored_posterior.hpp"
+#include "drivers/files/csv_write.hpp"
 #include "drivers/files/scene_file.hpp"
 #include "drivers/tolerance/deposit.hpp"
 #include "host/files/result_read.hpp"
-#include "host/files/whole_file.hpp"
 #include "vumat/parameters.hpp"
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <gsl/gsl_statistics_double.h>
+#include <limits>
 #include <optional>
 #include <spdlog/spdlog.h>
 #include <stdexcept>
@@ -91,41 +92,49 @@ std::vector<double> over_sets(const std::vector<ParameterSet>& sets,
   return values;
 }
 
-std::string sets_table(const std::vector<ParameterSet>& sets, const StoredPosterior& posterior) {
-  std::string text = "set,sample,failed," + drivers::joined(posterior.names, ",") + ",height,radius,rest_s\n";
+drivers::CsvWriter sets_table(const std::vector<ParameterSet>& sets, const StoredPosterior& posterior) {
+  drivers::CsvWriter csv("set,sample,failed," + drivers::joined(posterior.names, ",") +
+                         ",height,radius,rest_s");
+  constexpr double none = std::numeric_limits<double>::quiet_NaN(); // an empty cell
   for (const auto& set : sets) {
-    text += fmt::format("{},{},{:d}", set.run.name, set.row, !set.deposit);
-    for (const double value : posterior.samples[set.row]) text += fmt::format(",{:.8g}", value);
-    const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : std::string(); };
+    csv.cell(set.run.name);
+    csv.cell(set.row);
+    csv.cell(!set.deposit);
+    for (const double value : posterior.samples[set.row]) csv.cell(drivers::Rounded{value, 8});
     const auto& d = set.deposit;
-    text += d ? fmt::format(",{:.6g},{:.6g},{}\n", d->height, d->radius, number(d->rest)) : ",,,\n";
+    for (const double value : {d ? d->height : none, d ? d->radius : none, d ? d->rest : none})
+      csv.cell(drivers::Rounded{value});
+    csv.end_row();
   }
-  return text;
+  return csv;
 }
 
-std::string bands_table(const std::vector<std::pair<std::string, Quantiles>>& bands) {
-  std::string text = "quantity,lower_5,median,upper_95\n";
-  for (const auto& [name, q] : bands)
-    text += fmt::format("{},{:.6g},{:.6g},{:.6g}\n", name, q.lower, q.median, q.upper);
-  return text;
+void add_row(drivers::CsvWriter& csv, const auto& first, const Quantiles& q) {
+  csv.row(first, drivers::Rounded{q.lower}, drivers::Rounded{q.median}, drivers::Rounded{q.upper});
+}
+
+drivers::CsvWriter bands_table(const std::vector<std::pair<std::string, Quantiles>>& bands) {
+  drivers::CsvWriter csv("quantity,lower_5,median,upper_95");
+  for (const auto& [name, q] : bands) add_row(csv, name, q);
+  return csv;
 }
 
 /// Bands of curves at equally spaced places from 0 to `end`. Beyond its own end a curve keeps its last value if
 /// `keep_last`, otherwise it is 0.
-std::string curve_bands(const std::vector<ParameterSet>& sets, const std::string& header, double end,
-                        bool keep_last,
-                        const std::function<const drivers::Outline&(const ParameterSet&)>& curve) {
+drivers::CsvWriter curve_bands(const std::vector<ParameterSet>& sets, const std::string& place_name,
+                               double end, bool keep_last,
+                               const std::function<const drivers::Outline&(const ParameterSet&)>& curve) {
   constexpr int parts = 200;
-  std::string text = header + ",lower_5,median,upper_95\n";
+  drivers::CsvWriter csv(place_name + ",lower_5,median,upper_95");
   for (int k = 0; k <= parts; ++k) {
     const double place = end * k / parts;
     const auto q = quantiles(over_sets(sets, [&](const ParameterSet& set) {
       const auto& c = curve(set);
       return keep_last && place >= c.radii.back() ? c.heights.back() : c.at(place);
     }));
-    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}\n", place, q.lower, q.median, q.upper);
+    add_row(csv, drivers::Rounded{place}, q);
   }
-  return text;
+  return csv;
 }
 
 void write_curves(const std::vector<ParameterSet>& sets, double radius, const fs::path& folder) {
@@ -133,13 +142,12 @@ void write_curves(const std::vector<ParameterSet>& sets, double radius, const fs
   const auto reaches = over_sets(sets, [](const ParameterSet& s) { return s.deposit->radius; });
   const double end = *std::max_element(ends.begin(), ends.end());
   const double reach = 1.1 * radius * *std::max_element(reaches.begin(), reaches.end());
-  host::write_whole(
-      folder / "outline_bands.csv",
-      curve_bands(sets, "radius_m", reach, false,
-                  [](const ParameterSet& s) -> const drivers::Outline& { return s.deposit->outline; }));
-  host::write_whole(folder / "height_bands.csv",
-                    curve_bands(sets, "time_s", end, true,
-                                [](const ParameterSet& s) -> const drivers::Outline& { return s.history; }));
+  curve_bands(sets, "radius_m", reach, false, [](const ParameterSet& s) -> const drivers::Outline& {
+    return s.deposit->outline;
+  }).write(folder / "outline_bands.csv");
+  curve_bands(sets, "time_s", end, true, [](const ParameterSet& s) -> const drivers::Outline& {
+    return s.history;
+  }).write(folder / "height_bands.csv");
 }
 
 void print_bands(const std::vector<std::pair<std::string, Quantiles>>& bands, std::size_t complete,
@@ -178,7 +186,7 @@ void propagate(PropagateOptions options) {
   if (folder.empty()) folder = scene.output_folder;
   auto sets = drawn_sets(options, posterior);
   run_sets(sets, options.study);
-  host::write_whole(fs::path(folder) / "sets.csv", sets_table(sets, posterior));
+  sets_table(sets, posterior).write(fs::path(folder) / "sets.csv");
   const auto heights = over_sets(sets, [](const ParameterSet& s) { return s.deposit->height; });
   if (heights.size() < 2)
     throw std::runtime_error(
@@ -186,7 +194,7 @@ void propagate(PropagateOptions options) {
   const std::vector<std::pair<std::string, Quantiles>> bands{
       {"h_f/r0", quantiles(heights)},
       {"r_f/r0", quantiles(over_sets(sets, [](const ParameterSet& s) { return s.deposit->radius; }))}};
-  host::write_whole(fs::path(folder) / "bands.csv", bands_table(bands));
+  bands_table(bands).write(fs::path(folder) / "bands.csv");
   write_curves(sets, scene.column.radius, folder);
   drivers::report_study("posterior.py", options.study);
   print_bands(bands, heights.size(), options);

@@ -3,6 +3,7 @@
 #include "drivers/element/element.hpp"
 #include "drivers/element/failed_call.hpp"
 #include "drivers/element/pictures.hpp"
+#include "drivers/files/csv_write.hpp"
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -42,17 +43,19 @@ private:
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file;
 };
 
+constexpr int digits = 12; // of a number in a table
+
 std::string header(const std::vector<OutputColumn>& columns) {
   std::string line = "stage,step";
   for (const auto& c : columns) line += ',' + c.header();
-  return line + '\n';
+  return line;
 }
 
-void append_row(std::string& line, const ElementRow& row, const std::vector<OutputColumn>& columns) {
-  fmt::format_to(std::back_inserter(line), "{},{}", row.stage, row.step);
-  for (const auto& c : columns)
-    fmt::format_to(std::back_inserter(line), ",{:.12g}", c.value(row) + 0.0); // no -0
-  line += '\n';
+void add_row(CsvWriter& table, const ElementRow& row, const std::vector<OutputColumn>& columns) {
+  table.cell(row.stage);
+  table.cell(row.step);
+  for (const auto& c : columns) table.cell(Rounded{c.value(row), digits});
+  table.end_row();
 }
 
 std::string envelope_header() {
@@ -60,14 +63,15 @@ std::string envelope_header() {
   for (const char* what : {"strain_increment_{}", "stress_{}_Pa", "stress_change_{}_Pa"})
     for (const char* c : {"11", "22", "33", "12", "23", "31"})
       line += ',' + fmt::format(fmt::runtime(what), c);
-  return line + '\n';
+  return line;
 }
 
-std::string envelope_line(const EnvelopeRow& row) {
-  auto line = fmt::format("{},{:.12g}", row.stage, row.angle);
+void add_row(CsvWriter& table, const EnvelopeRow& row) {
+  table.cell(row.stage);
+  table.cell(Rounded{row.angle, digits});
   for (const auto* six : {&row.strain_increment, &row.stress, &row.stress_change})
-    for (const double v : *six) fmt::format_to(std::back_inserter(line), ",{:.12g}", v + 0.0);
-  return line + '\n';
+    for (const double v : *six) table.cell(Rounded{v, digits});
+  table.end_row();
 }
 
 bool has_envelope(const ElementCase& element) {
@@ -95,21 +99,22 @@ std::string failed_point_file(const ElementOptions& options) {
 
 void run_case(const ElementCase& element, const ElementOptions& options) {
   if (!options.resolved.empty()) OutputFile(options.resolved).write(element.resolved);
-  std::unique_ptr<OutputFile> probes;
-  if (has_envelope(element)) probes = std::make_unique<OutputFile>(envelope_file(options));
-  if (probes) probes->write(envelope_header());
-  OutputFile table(options.output);
   const auto columns = output_columns(element.material, element.critical);
-  table.write(header(columns));
-  std::string line;
-  run_element_case(
-      element,
-      [&](const ElementRow& row) {
-        line.clear();
-        append_row(line, row, columns);
-        table.write(line);
-      },
-      [&](const EnvelopeRow& row) { probes->write(envelope_line(row)); }, failed_point_file(options));
+  CsvWriter table(header(columns)), probes(envelope_header());
+  std::unique_ptr<OutputFile> probe_file;
+  if (has_envelope(element)) probe_file = std::make_unique<OutputFile>(envelope_file(options));
+  if (probe_file) probe_file->write(probes.take());
+  OutputFile file(options.output);
+  file.write(table.take());
+  const auto write_row = [&](const ElementRow& row) {
+    add_row(table, row, columns);
+    file.write(table.take());
+  };
+  const auto write_probe = [&](const EnvelopeRow& row) {
+    add_row(probes, row);
+    probe_file->write(probes.take());
+  };
+  run_element_case(element, write_row, write_probe, failed_point_file(options));
 }
 
 void run_case(FailedCall failed, const ElementOptions& options) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/element/failed_call.hpp"
+#include "drivers/files/csv_write.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -27,17 +28,18 @@ std::string repeat_call(FailedCall& failed, std::string& fault) {
   auto& b = failed.call.block;
   host::call_vumat(failed.material.material, failed.call.increment, b);
   fault = host::fault_of(b, 0, failed.material.failure_state);
-  std::string text = "quantity,component,old,new\n";
+  CsvWriter table("quantity,component,old,new");
+  const auto number = [](double x) { return fmt::format("{:.12g}", x); }; // infinities and NaN as such
   const auto row = [&](const std::string& quantity, std::size_t c, const host::GuardedArray& old,
                        const host::GuardedArray& now) {
-    text += fmt::format("{},{},{:.12g},{:.12g}\n", quantity, c + 1, old[c], now[c]);
+    table.row(quantity, c + 1, number(old[c]), number(now[c]));
   };
   for (std::size_t c = 0; c < b.stress_new.size(); ++c) row("stress_Pa", c, b.stress_old, b.stress_new);
   for (std::size_t s = 0; s < b.state_new.size(); ++s)
     row("state_" + failed.material.state_names[s], s, b.state_old, b.state_new);
   row("internal_energy_J_per_kg", 0, b.internal_energy_old, b.internal_energy_new);
   row("inelastic_energy_J_per_kg", 0, b.inelastic_energy_old, b.inelastic_energy_new);
-  return text;
+  return table.text();
 }
 
 } // namespace drivers
