@@ -4,6 +4,7 @@
 #include "vumat/parameters.hpp"
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace calibration {
 namespace {
@@ -42,7 +43,8 @@ struct Simulator::State {
   }
 
   void pack(int k, const SpecimenRun& run, const AxisymmetricTensor& strain_increment) {
-    host::pack_point(components(run.stress), components(strain_increment), run.state, k, block);
+    const auto stress = components(run.stress), increment = components(strain_increment);
+    host::pack_point(std::span(stress), std::span(increment), run.state, k, block);
   }
 
   void call() {
@@ -53,11 +55,12 @@ struct Simulator::State {
 
   MaterialAnswer answer(int k) const {
     std::array<double, 3 + shear> stress;
-    host::unpack_stress(block, k, stress);
+    host::unpack_stress(block, k, std::span(stress));
+    // A state that is not finite fails the next update.
+    const bool usable =
+        std::isfinite(stress[0] + stress[1]) && !host::reports_failure(block, k, failure_state);
     const double status = block.state_new[simsand::statev::status * block.points + k];
-    return {{stress[0], stress[1]},
-            host::is_usable(block, k, failure_state),
-            status == double(simsand::Status::substepped)};
+    return {{stress[0], stress[1]}, usable, status == double(simsand::Status::substepped)};
   }
 
   /// An update without strain, at the void ratio of the specimen. False: the material refuses it.

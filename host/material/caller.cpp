@@ -28,6 +28,7 @@ Vector6 components(const Eigen::Matrix3d& t) {
 }
 
 constexpr int shear = 3; // components
+using Six = std::span<const double, 6>;
 
 void pack_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
   const int n = b.points;
@@ -41,7 +42,7 @@ void pack_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
 }
 
 void pack_increment(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
-  host::pack_point({from.stress.data(), 6}, {increment.data(), 6}, from.state, k, b);
+  host::pack_point(Six(from.stress.data(), 6), Six(increment.data(), 6), from.state, k, b);
   // The convention's density is that in the middle of the increment.
   b.density[k] = from.initial_density * std::exp(volumetric_strain(from.strain + 0.5 * increment));
   b.internal_energy_old[k] = from.internal_energy;
@@ -52,7 +53,7 @@ void pack_increment(const PointState& from, const Vector6& increment, int k, hos
 PointState unpacked_answer(const PointState& from, const Vector6& increment, double dt, int k,
                            const host::VumatBlock& b) {
   PointState to = from;
-  host::unpack_stress(b, k, {to.stress.data(), 6});
+  host::unpack_stress(b, k, std::span<double, 6>(to.stress.data(), 6));
   host::unpack_state(b, k, to.state);
   to.strain = from.strain + increment;
   to.internal_energy = b.internal_energy_new[k];

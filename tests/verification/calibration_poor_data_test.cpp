@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Test curves that say little or say it wrongly: a clear line, or a result that says what it does not know.
+// Test curves with little information or with errors: a clear message, or a result that names what is not determined.
 #include "calibration/report.hpp"
 #include <algorithm>
 #include <cmath>
@@ -198,7 +198,7 @@ TEST(PoorData, StressInTheWrongUnit) {
 
 TEST(PoorData, WrongSignOrUnitOfVolume) {
   auto sheet = good_sheet(40);
-  for (auto& row : sheet.rows) row.volume *= 100; // a fraction taken for per cent the other way round
+  for (auto& row : sheet.rows) row.volume *= 100; // per cent read as a fraction
   EXPECT_NE(refusal(write(sheet)), "");
   sheet = good_sheet(
       40); // dilation counted as contraction: no curve of the model bends so, and the report says so

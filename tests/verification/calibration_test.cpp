@@ -25,7 +25,7 @@ drivers::LoadedMaterial spheres() {
       drivers::parse_toml("file = \"" + shipped("materials/SS.toml") + "\"", "material", "."), 0.6);
 }
 
-/// The shipped fit with `change` put through its text.
+/// The shipped fit after `change` has edited its text.
 Fit changed_fit(const std::string& name, const std::function<void(std::string&)>& change) {
   std::ifstream in(shipped("fits/" + name));
   std::string text(std::istreambuf_iterator<char>(in), {});

@@ -169,20 +169,20 @@ TEST(ElementPaths, OneBadPathDoesNotStopTheOthers) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "simsand element: /no/such.toml: expected a readable TOML file with content, found none\n");
   EXPECT_TRUE(fs::exists(at / "oedometric.csv"));
-  const auto said = [](const ElementBatch& batch) {
+  const auto message_of = [](const ElementBatch& batch) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(run_elements(batch), 1);
     return testing::internal::GetCapturedStderr();
   };
   const auto one = paths + "/oedometric.toml", envelope = paths + "/envelopes.toml";
-  EXPECT_EQ(said({{one, one}, "", "", "", "", {}, 1}),
+  EXPECT_EQ(message_of({{one, one}, "", "", "", "", {}, 1}),
             "simsand element: several paths need a folder: give -o FOLDER\n");
-  EXPECT_EQ(said({{one, one}, at.string(), "", "", "", {}, 1}),
+  EXPECT_EQ(message_of({{one, one}, at.string(), "", "", "", {}, 1}),
             fmt::format("simsand element: {}: a second path named 'oedometric'\n", one));
   EXPECT_EQ(
-      said({{envelope}, "", "", "", "", {}, 1}),
+      message_of({{envelope}, "", "", "", "", {}, 1}),
       fmt::format("simsand element: {}: an envelope stage needs a file: give -o or --envelope\n", envelope));
-  EXPECT_EQ(said({{one}, "", "", "", "pictures", {}, 1}),
+  EXPECT_EQ(message_of({{one}, "", "", "", "pictures", {}, 1}),
             "simsand element: --figures needs tables in files: give -o\n");
 }
 
