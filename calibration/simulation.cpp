@@ -72,7 +72,7 @@ struct Simulator::State {
     block.points = 1;
     pack(0, run, {});
     call();
-    if (!run.settle(answer(0))) return false;
+    if (!run.take_initial_answer(answer(0))) return false;
     host::unpack_state(block, 0, run.state);
     return true;
   }
@@ -85,7 +85,7 @@ struct Simulator::State {
     int left = 0;
     for (int k = 0; k < int(active.size()); ++k) {
       auto& run = runs[active[k]];
-      const auto verdict = k < count ? run.take(answer(k)) : TrialOutcome::retry;
+      const auto verdict = k < count ? run.take_answer(answer(k)) : TrialOutcome::retry;
       if (verdict == TrialOutcome::accepted) host::unpack_state(block, k, run.state);
       if (verdict != TrialOutcome::ended) active[left++] = active[k];
     }

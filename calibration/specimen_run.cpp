@@ -12,7 +12,7 @@ constexpr double first_increment = 1e-5;    // of axial strain: elastic
 constexpr double smallest_increment = 1e-9; // below it the material has failed
 constexpr int most_trials = 30;             // of one increment before it is shortened
 constexpr std::size_t most_rows = 5000;
-constexpr double largest_bend = 16; // over the allowed one, before an increment is shortened
+constexpr double largest_deviation = 16; // over the allowed one, before an increment is shortened
 
 /// Substeps of the material cost more than increments do: after an increment that needed them the next one is shorter,
 /// later ones may grow again.
@@ -27,7 +27,7 @@ void SpecimenRun::begin() {
   path->add(stress, strain);
 }
 
-bool SpecimenRun::settle(const MaterialAnswer& answer) {
+bool SpecimenRun::take_initial_answer(const MaterialAnswer& answer) {
   if (!answer.usable) return false;
   held = specimen->kind->held.at(stress, strain);
   stress = answer.stress;
@@ -49,7 +49,7 @@ void SpecimenRun::begin_increment() {
   search.slope = slope;
 }
 
-TrialOutcome SpecimenRun::shorten() {
+TrialOutcome SpecimenRun::shorten_increment() {
   axial_increment *= 0.25;
   if (std::abs(axial_increment) < smallest_increment) return TrialOutcome::ended;
   begin_increment();
@@ -57,7 +57,7 @@ TrialOutcome SpecimenRun::shorten() {
 }
 
 /// How far a row would be from the straight continuation of the last increment, over what is allowed.
-double SpecimenRun::bend(const AxisymmetricTensor& next, double volumetric_strain) const {
+double SpecimenRun::deviation_from_line(const AxisymmetricTensor& next, double volumetric_strain) const {
   const Path& p = *path;
   const std::size_t n = p.rows();
   if (n < 2) return 0.25; // unknown: the second increment is longer
@@ -73,8 +73,8 @@ double SpecimenRun::bend(const AxisymmetricTensor& next, double volumetric_strai
                   std::abs(volume) / accuracy->volumetric_strain);
 }
 
-TrialOutcome SpecimenRun::take(const MaterialAnswer& answer) {
-  if (!answer.usable || search.trials > most_trials) return shorten();
+TrialOutcome SpecimenRun::take_answer(const MaterialAnswer& answer) {
+  if (!answer.usable || search.trials > most_trials) return shorten_increment();
   const AxisymmetricTensor next{strain.axial + axial_increment, strain.radial + search.trial};
   if (!specimen->kind->prescribes_strain()) {
     const double residual = specimen->kind->held.at(answer.stress, next) - held;
@@ -83,24 +83,25 @@ TrialOutcome SpecimenRun::take(const MaterialAnswer& answer) {
       return TrialOutcome::retry;
     }
   }
-  const double bent = bend(answer.stress, next.trace());
-  if (bent > largest_bend && std::abs(axial_increment) > first_increment) return shorten();
+  const double deviation = deviation_from_line(answer.stress, next.trace());
+  if (deviation > largest_deviation && std::abs(axial_increment) > first_increment)
+    return shorten_increment();
   longest = answer.substepped ? after_substeps * std::abs(axial_increment) : without_substeps * longest;
   stress = answer.stress;
   strain = next;
   path->add(stress, strain);
-  return go_on(bent);
+  return next_increment(deviation);
 }
 
-/// Remembers the increment that stands and begins the next one.
-TrialOutcome SpecimenRun::go_on(double bent) {
+/// Stores the accepted increment and starts the next one.
+TrialOutcome SpecimenRun::next_increment(double deviation) {
   slope = search.slope;
   before = last;
   last = {axial_increment, search.trial / axial_increment};
   ++increments;
   path->complete = std::abs(strain.axial) >= std::abs(specimen->end_strain);
   if (path->complete || path->rows() >= most_rows) return TrialOutcome::ended;
-  const double grown = std::abs(axial_increment) * std::clamp(0.9 / std::sqrt(bent), 0.3, 2.0);
+  const double grown = std::abs(axial_increment) * std::clamp(0.9 / std::sqrt(deviation), 0.3, 2.0);
   axial_increment =
       std::copysign(std::min({grown, longest, accuracy->largest_increment}), specimen->end_strain);
   begin_increment();

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One specimen on its way through its test: how long its increments are, and which radial strain each of them is tried
-// with. It calls no material: whoever does asks for the strain increment to try and hands over the answer, so that many
-// specimens can share a call.
+// One specimen during its test: the size of its increments of axial strain, and the trials of radial strain in each. It
+// calls no material: the caller asks for the strain increment to try and passes the answer, so that many specimens can
+// share a call.
 #pragma once
 #include "calibration/path.hpp"
 #include "calibration/radial_strain_search.hpp"
 
 namespace calibration {
 
-/// Size of increments. Where the path bends, an increment is so small that a straight continuation of the one
-/// before misses stress (over p) and volumetric strain by about this; errors of the result are far smaller.
+/// Size of increments: the straight continuation of the last increment differs from the next one by about these in
+/// stress (over p) and volumetric strain. Errors of the result are far smaller.
 struct Accuracy {
   double stress = 5e-4, volumetric_strain = 5e-5;
   double largest_increment = 0.01; ///< of axial strain
   double control = 1e-6;           ///< error of a held stress, over the initial mean stress
 };
 
-/// What the material answers to a strain increment.
+/// The material's answer to a strain increment.
 struct MaterialAnswer {
   drivers::AxisymmetricTensor stress; ///< Pa
-  bool usable;                        ///< numbers, and no failure reported
+  bool usable;                        ///< finite, and no failure reported
   bool substepped;                    ///< the material cut the increment into substeps
 };
 
-/// What becomes of a trial.
+/// The result of a trial.
 enum class TrialOutcome {
-  retry,    ///< there is another trial from the same state
-  accepted, ///< the increment stands, the next one begins from its state
+  retry,    ///< another trial starts from the same state
+  accepted, ///< the increment is complete, the next one starts from its state
   ended     ///< the test is over: its end was reached, or the material failed
 };
 
@@ -36,29 +36,28 @@ public:
   SpecimenRun(const Specimen& specimen, const Accuracy& accuracy, Path& path)
       : specimen(&specimen), accuracy(&accuracy), path(&path) {}
 
-  /// Begins the test anew, with the row of the start.
+  /// Starts the test anew; the path receives the initial row.
   void begin();
-  /// Takes the answer to an update without strain, which adapts stress and state to the void ratio. False: unusable.
-  bool settle(const MaterialAnswer& answer);
+  /// Takes the answer to an update without strain, which sets stress and state for the void ratio. False: unusable.
+  bool take_initial_answer(const MaterialAnswer& answer);
   /// The strain increment to try from `stress`.
   drivers::AxisymmetricTensor trial() const { return {axial_increment, search.trial}; }
   /// Takes the answer to the trial.
-  TrialOutcome take(const MaterialAnswer& answer);
+  TrialOutcome take_answer(const MaterialAnswer& answer);
 
   drivers::AxisymmetricTensor stress; ///< at the start of the increment, Pa
-  std::vector<double> state;          ///< STATEV there; the caller keeps it
+  std::vector<double> state;          ///< STATEV there; the caller updates it
 
 private:
-  /// An increment that stands.
-  struct Done {
+  struct AcceptedIncrement {
     double axial = 0, ratio = 0; ///< axial strain; radial over axial strain
   };
 
   void begin_increment();
-  TrialOutcome shorten();
-  double bend(const drivers::AxisymmetricTensor& next_stress, double next_volumetric_strain) const;
-  void accept(const MaterialAnswer& answer);
-  TrialOutcome go_on(double bend);
+  TrialOutcome shorten_increment();
+  double deviation_from_line(const drivers::AxisymmetricTensor& next_stress,
+                             double next_volumetric_strain) const;
+  TrialOutcome next_increment(double deviation);
 
   const Specimen* specimen;
   const Accuracy* accuracy;
@@ -67,7 +66,7 @@ private:
   double held = 0; ///< left-hand side of the held condition at the start
   double axial_increment = 0;
   RadialStrainSearch search;
-  Done last, before; ///< the last two increments
+  AcceptedIncrement last, before; ///< the last increment and the one before
   int increments = 0;
   double longest = 1; ///< axial increment that the material is expected to take without substeps
   double slope = 0;   ///< of the search for the last increment
