@@ -13,7 +13,7 @@ struct AbaqusOptions {
 };
 
 inline constexpr const char* abaqus_job = "column";                   ///< deck: column.inp
-inline constexpr const char* abaqus_subroutine = "simsand_vumat.cpp"; ///< searched beside the program
+inline constexpr const char* abaqus_subroutine = "simsand_vumat.cpp"; ///< in the share folder
 
 /// Decks with more particles than this are huge to read and slow to run: a warning.
 inline constexpr double many_particles = 500'000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/abaqus/deck.hpp"
 #include "drivers/abaqus/page.hpp"
+#include "drivers/files/resource.hpp"
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -41,7 +42,8 @@ AbaqusSummary write_abaqus(const host::Scene& scene, const AbaqusOptions& option
   summary.particles = model.particles.size();
   summary.edge = model.edge;
   const bool own = scene.friction_angle > 0;
-  if (const fs::path source = host::beside_program(abaqus_subroutine); own && fs::exists(source)) {
+  if (const auto source = find_resource(fmt::format("abaqus/{}", abaqus_subroutine));
+      own && !source.empty()) {
     fs::copy_file(source, folder / abaqus_subroutine, fs::copy_options::overwrite_existing, error);
     if (error)
       throw std::runtime_error(
@@ -57,7 +59,7 @@ AbaqusSummary write_abaqus(const host::Scene& scene, const AbaqusOptions& option
         "{} particles: a coarser --spacing makes a deck that ABAQUS reads sooner", summary.particles));
   if (own && !summary.with_source)
     summary.remarks.push_back(
-        fmt::format("no {} beside the program: see {}", abaqus_subroutine, summary.page));
+        fmt::format("the program comes without {}: see {}", abaqus_subroutine, summary.page));
   if (scene.gate.motion == host::GateMotion::remove)
     summary.remarks.push_back("the scene removes the wall at once: the deck has none");
   return summary;

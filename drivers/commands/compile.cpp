@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `simsand compile`: a user's subroutine from its sources to a library.
 #include "drivers/compile/compile.hpp"
-#include "drivers/commands/compile.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/compile/compile.hpp"
 #include "drivers/compile/compiler_advice.hpp"
+#include "drivers/files/resource.hpp"
 #include "drivers/run/process.hpp"
 #include "host/material/library.hpp"
 #include <algorithm>
@@ -49,7 +50,7 @@ void provide_includes(const std::vector<SourceFile>& sources, const fs::path& fo
   for (const auto& source : sources)
     if (source.language != Language::object) collect_included(source.path, names);
   fs::create_directories(folder);
-  for (const auto& entry : fs::directory_iterator(host::beside_program("../host/material/include"))) {
+  for (const auto& entry : fs::directory_iterator(resource("include"))) {
     const auto own = entry.path().filename().string();
     fs::copy_file(entry.path(), folder / own);
     for (const auto& name : names)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/element/pictures.hpp"
+#include "drivers/files/resource.hpp"
 #include "drivers/run/process.hpp"
-#include <filesystem>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -20,9 +20,7 @@ Words critical_numbers(const std::optional<CriticalState>& critical) {
 } // namespace
 
 void run_script(const std::string& name, const Words& arguments, const std::string& folder) {
-  const auto script = host::beside_program(name);
-  if (!std::filesystem::exists(script))
-    throw std::runtime_error(fmt::format("{}: no such script: figures cannot be drawn", script));
+  const auto script = resource(name);
   if (const int status = run_python(script, arguments); status != 0)
     throw std::runtime_error(
         fmt::format("{}: figures were not drawn: {} ended with status {}", folder, script, status));
@@ -37,7 +35,7 @@ void draw_pictures(const std::vector<Picture>& pictures, const std::string& fold
   }
   arguments.emplace_back("--");
   for (const auto& picture : pictures) arguments.push_back(picture.table);
-  run_script("element_figures.py", arguments, folder);
+  run_script("figures/element_figures.py", arguments, folder);
 }
 
 } // namespace drivers

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures, drawn by scripts that the build puts beside the program: of element tests by
+// Pictures, drawn by scripts of the share folder (drivers/files/resource.hpp): of element tests by
 // drivers/figures/element_figures.py.
 #pragma once
 #include "drivers/element/critical_state.hpp"
 
 namespace drivers {
 
-/// Runs a script that draws into `folder`. Throws std::runtime_error if it is missing or fails; what it lacks it says
+/// Runs a script, by its name in the share folder, that draws into `folder`. Throws std::runtime_error if it is missing or fails; what it lacks it says
 /// itself, on standard error.
 void run_script(const std::string& name, const Words& arguments, const std::string& folder);
 

@@ -5,13 +5,12 @@
     accuracy.py FOLDER --data DATA      FOLDER/runs.csv, points.csv -> FOLDER/accuracy_*.png
 """
 import argparse
-import csv
 import pathlib
+import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures.style import plt, use
+from figures.table import read_rows
 import numpy as np
 
 WORDS = ("geometry", "material", "precision", "kernel", "column")
@@ -25,17 +24,7 @@ STYLE = {"SIMSAND, axisymmetric": ("#000000", "o"), "stiffness scale 0.3": ("#56
          "smoothing length 1.3": ("#009E73", "<"), "smoothing length 1.8": ("#009E73", ">"),
          "Wendland C4": ("#E69F00", "h"), "Wendland C4, length 1.8": ("#CC79A7", "h"),
          "quarter, 3-D": ("#D55E00", "D"), "half, 3-D": ("#D55E00", "p"), "full, 3-D": ("#D55E00", "*"), "calibrated on DEM": ("#0072B2", "X")}
-plt.rcParams.update({"font.size": 9, "savefig.dpi": 130, "legend.frameon": False})
-
-
-def table(file):
-    with open(file, encoding="utf-8") as lines:
-        rows = list(csv.DictReader(lines))
-    for row in rows:
-        for key, value in row.items():
-            if key not in WORDS:
-                row[key] = float(value) if value else np.nan
-    return rows
+use(font_size=9, dpi=130)
 
 
 def kind(row):
@@ -166,10 +155,10 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--data", type=pathlib.Path, help="data folder of the project; not used")
     arguments = parser.parse_args()
-    points = table(arguments.folder / "points.csv")
+    points = read_rows(arguments.folder / "points.csv", WORDS)
     fronts(points, arguments.folder)
     against_dem(points, arguments.folder)
-    scatter(table(arguments.folder / "runs.csv"), arguments.folder)
+    scatter(read_rows(arguments.folder / "runs.csv", WORDS), arguments.folder)
     print(*sorted(arguments.folder.glob("accuracy_*.png")), sep="\n")
 
 

@@ -10,30 +10,13 @@ import argparse
 import pathlib
 import sys
 
-try:
-    import matplotlib
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures.style import COLOURS, plt, use
+from figures.table import read_columns
+import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter
 
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    import numpy as np
-    from matplotlib.ticker import LogLocator, NullFormatter
-except ImportError as error:
-    sys.exit(f"element_figures.py: needs numpy and matplotlib ({error}): apt-get install python3-matplotlib")
-
-# Colours that stay apart for colour-blind readers (Okabe and Ito).
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555", "#000000")
-plt.rcParams.update({"font.size": 10, "axes.grid": True, "grid.color": "0.9", "savefig.dpi": 160,
-                     "legend.frameon": False})
-
-
-def read(path):
-    """Columns of a table by name."""
-    with open(path, encoding="utf-8") as file:
-        names = file.readline().strip().split(",")
-        rows = np.loadtxt(file, delimiter=",", ndmin=2)
-    if rows.size == 0 or rows.shape[1] != len(names):
-        raise ValueError("no rows below the header")
-    return dict(zip(names, rows.T))
+use(font_size=10, dpi=160, **{"axes.grid": True, "grid.color": "0.9"})
 
 
 class Test:
@@ -41,7 +24,7 @@ class Test:
 
     def __init__(self, path, critical, colour):
         self.name, self.colour = pathlib.Path(path).stem, colour
-        self.data = read(path)
+        self.data = read_columns(path)
         self.critical = critical if critical and np.isfinite(critical).all() else None
         self.p = self.data["p_Pa"] / 1e3
         self.e = self.data.get("void_ratio")
@@ -54,7 +37,7 @@ class Test:
         self.signed = bool((off <= 1e-6 * np.abs(d["stress_11_Pa"]) + 1e-9).all())
         self.q = (d["deviator_Pa"] if self.signed else d["q_Pa"]) / 1e3
         envelope = pathlib.Path(path).with_name(self.name + "_envelope.csv")
-        self.envelope = read(envelope) if envelope.exists() else None
+        self.envelope = read_columns(envelope) if envelope.exists() else None
 
     def line(self, ax, x, y, **style):
         ax.plot(x, y, color=self.colour, lw=1.6, label=self.name, **style)

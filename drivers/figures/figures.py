@@ -6,23 +6,15 @@ import argparse
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures.draw import level_line, particles, surface
+from figures.result import Result
+from figures.style import AMBER, BLUE, GREEN, GREY, MM, ORANGE, PURPLE, SKY, plt, use
 import numpy as np
-from matplotlib.collections import EllipseCollection
-from matplotlib.tri import Triangulation
 from mpl_toolkits.axes_grid1 import make_axes_locatable
 
-from result import Result
-
-MM = 1000.0
-# Colours that stay apart for colour-blind readers (Okabe and Ito).
-BLUE, ORANGE, GREEN, PURPLE, SKY, AMBER, GREY = (
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")
 CARRIES_STRESS = 20.0  # Pa: below it void ratios are those of loose grains
-plt.rcParams.update({"font.size": 10, "axes.grid": False, "savefig.dpi": 160, "legend.frameon": False})
+use(font_size=10, dpi=160)
 
 
 def mirrored(r, z):
@@ -96,13 +88,6 @@ def distinct(run, count):
     return sorted({int(np.abs(change - part).argmin()) for part in parts[:-1]} | {len(lines) - 1})
 
 
-def surface(r, height):
-    """The outline up to where it first meets the floor."""
-    dry = np.flatnonzero(height <= 0)
-    end = dry[0] + 1 if dry.size else len(r)
-    return MM * r[:end], MM * height[:end]
-
-
 def outlines(run):
     chosen = distinct(run, 9)
     colours = plt.get_cmap("viridis_r")(np.linspace(0.12, 1, len(chosen)))
@@ -114,26 +99,6 @@ def outlines(run):
         ax.plot(*mirrored(r, z), color=colour, lw=2.2 if last else 1.3, label=f"{snapshot.time:.2f} s")
     ax.legend(title="time", loc="center left", bbox_to_anchor=(1.01, 0.5))
     return fig
-
-
-def particles(ax, position, values, spacing, cmap, low, high):
-    """Discs of one spacing at the positions, in the units of the axes."""
-    discs = EllipseCollection(np.full(len(values), spacing), np.full(len(values), spacing), np.zeros(len(values)),
-                              units="xy", offsets=position, transOffset=ax.transData, cmap=cmap, lw=0)
-    discs.set_array(values)
-    discs.set_clim(low, high)
-    ax.add_collection(discs)
-    return discs
-
-
-def level_line(ax, position, values, level, longest):
-    """Contour of a particle quantity; triangles with sides over `longest` bridge gaps and are left out."""
-    mesh = Triangulation(position[:, 0], position[:, 1])
-    corners = position[mesh.triangles]
-    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
-    mesh.set_mask(sides.max(axis=1) > longest)
-    ax.tricontour(mesh, values, levels=[level], colors="white", linewidths=3.2)
-    ax.tricontour(mesh, values, levels=[level], colors=ORANGE, linewidths=1.8)
 
 
 def displacement(run):

@@ -5,23 +5,14 @@
     posterior.py FOLDER --data DATA      FOLDER/sets.csv, *_bands.csv -> FOLDER/posterior.png
 """
 import argparse
-import csv
 import pathlib
+import sys
 
-import matplotlib
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures.style import BLUE, MM, plt, use
+from figures.table import read_columns
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
-BLUE, MM = "#0072B2", 1e3
-plt.rcParams.update({"font.size": 9, "savefig.dpi": 130, "legend.frameon": False})
-
-
-def columns(file):
-    with open(file, encoding="utf-8") as lines:
-        rows = list(csv.DictReader(lines))
-    return {name: np.array([float(r[name]) if r[name] else np.nan for r in rows]) for name in rows[0]}
+use(font_size=9, dpi=130)
 
 
 def band(ax, table, x, scale):
@@ -38,12 +29,12 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--data", type=pathlib.Path, help="not used")
     folder = parser.parse_args().folder
-    sets = columns(folder / "sets.csv")
+    sets = read_columns(folder / "sets.csv")
     fig, axes = plt.subplots(1, 3, figsize=(12.5, 3.8), gridspec_kw={"width_ratios": (1.5, 1.2, 1)})
-    band(axes[0], columns(folder / "outline_bands.csv"), "radius_m", MM)
+    band(axes[0], read_columns(folder / "outline_bands.csv"), "radius_m", MM)
     axes[0].set_xlabel("$r$ / mm")
     axes[0].set_ylabel("final height of the surface / mm")
-    band(axes[1], columns(folder / "height_bands.csv"), "time_s", 1)
+    band(axes[1], read_columns(folder / "height_bands.csv"), "time_s", 1)
     axes[1].set_xlabel("time / s")
     axes[1].set_ylabel("height $h$ / mm")
     axes[1].legend(loc="lower right")

@@ -4,22 +4,21 @@
 
     study_causes.py FOLDER --data DATA      FOLDER/COLUMN/CHANGE/result.h5 -> FOLDER/causes.csv, *.png, index.html"""
 import argparse
-import csv
 import html
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures.draw import surface
+from figures.result import Result
+from figures.style import BLUE, GREEN, GREY, MM, ORANGE, PURPLE, SKY, plt, use
+from figures.study_data import deviation, mean_top, read_dem
+from figures.study_page import PAGE, bullets, embedded, page_table, save
+from figures.table import read_rows, write_rows
 import numpy as np
 
-from figures import BLUE, GREEN, GREY, MM, ORANGE, PURPLE, SKY, surface
-from result import Result
-from study_data import deviation, mean_top, read_dem
-from study_page import PAGE, bullets, embedded, page_table, save, write_table
-
+use(font_size=10, dpi=160)
+TRIAXIAL_WORDS = ("case", "shape", "packing", "variables")  # columns that are no numbers
 PARAMETERS = ("friction", "dilatancy", "interlocking", "packing")
 BOUNDARY = ("floor", "rest", "glue")
 SCHEME = ("flowviscosity", "smoothing", "diffusion", "step", "spacing", "dimension")
@@ -73,9 +72,9 @@ def row_of(column, change, changes, other):
 
 def triaxial_angles(data, shape):
     """Critical friction angles of the triaxial tests of the main set, degrees."""
-    with open(pathlib.Path(data) / "dem/results/triaxial.csv", encoding="utf-8") as table:
-        return np.array([float(row["critical_angle_deg"]) for row in csv.DictReader(table)
-                         if row["shape"] == shape and row["variables"] == "none"])
+    rows = read_rows(pathlib.Path(data) / "dem/results/triaxial.csv", TRIAXIAL_WORDS)
+    return np.array([row["critical_angle_deg"] for row in rows
+                     if row["shape"] == shape and row["variables"] == "none"])
 
 
 def matching_angle(changes, other):
@@ -237,7 +236,7 @@ def main():
                 for name in columns}
     rows = [row_of(name, change, changes, dem[key_of(name)]) for name, changes in columns.items()
             for change in changes.values()]
-    write_table(arguments.folder / "causes.csv", rows)
+    write_rows(arguments.folder / "causes.csv", rows)
     parts = {"Parameters": lambda n, c, d: parameter_lines(n, c, d, arguments.data), "Boundary": boundary_lines,
              "Model": lambda n, c, d: model_lines(n, c, d, variants[n]), "Scheme": scheme_lines}
     body = ""

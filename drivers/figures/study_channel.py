@@ -7,17 +7,16 @@ import argparse
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures.draw import particles, surface
+from figures.result import Result
+from figures.style import BLUE, GREEN, GREY, MM, ORANGE, PURPLE, SKY, plt, use
+from figures.study_data import law_value, read_laws
+from figures.study_page import PAGE, bullets, embedded, page_table, save
+from figures.table import write_rows
 import numpy as np
 
-from figures import BLUE, GREEN, GREY, MM, ORANGE, PURPLE, SKY, particles, surface
-from result import Result
-from study_data import law_value, read_laws
-from study_page import PAGE, bullets, embedded, page_table, save, write_table
-
+use(font_size=10, dpi=160)
 MOVED = 0.002  # m: one rod; the failure line bounds what moved farther
 PUBLISHED_TIME, PUBLISHED_ENERGY = 0.8, 0.690  # s; mechanical energy left of Drucker-Prager in an open SPH code
 CRITICAL = "simsand_e0.85"  # the void ratio nearest below the critical state: least change of volume
@@ -193,7 +192,7 @@ def main():
     laws = [p for (source, quantity, _), p in read_laws(arguments.data, "channel").items()
             if (source, quantity) == ("Lube 2005", "(d_f - d_0) / d_0")][0]
     rows = [row_of(name, run, laws, seconds_of(arguments.folder / name, run)) for name, run in runs.items()]
-    write_table(arguments.folder / "channel.csv", rows)
+    write_rows(arguments.folder / "channel.csv", rows)
     found = {"What the void ratio does": density_lines(rows), "What the simple model does": comparison_lines(rows, runs)}
     body = ""
     for title, lines in found.items():

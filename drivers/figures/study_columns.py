@@ -11,14 +11,15 @@ import html
 import pathlib
 import sys
 
-import study_pictures as pictures
-from study_data import finest, read_dem, read_laws, read_runs
-from study_discussion import against_dem, against_laws, between_sets, simpler, spent, thrown, why
-from study_page import (PAGE, bullets, embedded, page_table, save, text_bullets, text_table,
-                        write_table)
-from study_pictures import plt
-from study_rows import cost_rows, dem_rows, rows_of
-from study_trends import trends
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures import study_pictures as pictures
+from figures.study_data import finest, read_dem, read_laws, read_runs
+from figures.study_discussion import against_dem, against_laws, between_sets, simpler, spent, thrown, why
+from figures.study_page import PAGE, bullets, embedded, page_table, save, text_bullets, text_table
+from figures.style import plt
+from figures.study_rows import cost_rows, dem_rows, rows_of
+from figures.study_trends import trends
+from figures.table import write_rows
 
 MAIN = {"dem": "Parameters calibrated on DEM triaxial tests", "table4": "Parameters of the paper's Table 4"}
 OTHERS = {"literal": "Sensitivity: Table 2 read literally, the printed porosity as void ratio (Table 4)",
@@ -101,7 +102,7 @@ def trend_part(study):
     for (name, spacing), columns in study.runs.items():
         rows += [{"columns": f"{name}, {spacing:g} mm", **row} for row in trends(columns)]
     rows += [{"columns": "DEM", **row} for row in trends(study.dem)]
-    write_table(study.folder / "trends.csv", rows)
+    write_rows(study.folder / "trends.csv", rows)
     wanted = [f"{name}, {study.shown[name][0]:g} mm" for name in MAIN if name in study.shown] + ["DEM"]
     return (study.title("The trends of the paper") + "<p>Counts of cases in which a trend holds, differs by less than the scatter of "
             "single runs (equal), or fails; failing cases with the amount by which they do.</p>" +
@@ -109,7 +110,7 @@ def trend_part(study):
 
 
 def cost_part(study):
-    write_table(study.folder / "cost.csv", study.costs)
+    write_rows(study.folder / "cost.csv", study.costs)
     body = study.title("Cost") + study.picture("cost", "Error against processor time at each spacing",
                                            pictures.cost(study.costs))
     for name in MAIN:
@@ -167,7 +168,7 @@ def main():
     body = overview(study) + cost_part(study) + trend_part(study)
     for name, title in {**MAIN, **OTHERS}.items():
         if name in study.shown:
-            write_table(study.folder / f"{name}.csv", study.rows[name])
+            write_rows(study.folder / f"{name}.csv", study.rows[name])
             body += set_part(study, name, title)
             print(f"{title}, {study.shown[name][0]:g} mm", *against_dem(study.rows[name]), sep="\n  ")
     (study.folder / "report.md").write_text(study.text, encoding="utf-8")

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the study of the 24 columns compares: runs, discrete elements, laboratory laws. SI units."""
-import csv
 import pathlib
 
 import h5py
 import numpy as np
 
-from result import Result, text
+from figures.result import Result, text
+from figures.table import read_rows
 
 SHAPES, PACKINGS, ASPECTS = ("SS", "TS", "ES"), ("dense", "loose"), (0.5, 1.0, 2.0, 4.0)
+LAW_WORDS = ("flow", "source", "quantity", "sure", "note")  # columns of laws.csv that are no numbers
 STILL = 0.5  # grains: what moved less is undisturbed
 
 
@@ -149,12 +150,11 @@ def read_dem(data, variables="none"):
 def read_laws(data, flow="axisymmetric"):
     """Laws of a flow: (source, quantity, note) -> list of (a_min, a_max, coefficient, exponent)."""
     laws = {}
-    with open(pathlib.Path(data) / "experiments/laws.csv", encoding="utf-8") as table:
-        for row in csv.DictReader(line for line in table if not line.startswith("#")):
-            if row["flow"] == flow and row["coefficient"]:
-                reading = row["note"].split(";")[0] if "reading" in row["note"] else ""
-                laws.setdefault((row["source"], row["quantity"], reading), []).append(
-                    tuple(float(row[k]) for k in ("a_min", "a_max", "coefficient", "exponent")))
+    for row in read_rows(pathlib.Path(data) / "experiments/laws.csv", LAW_WORDS):
+        if row["flow"] == flow and np.isfinite(row["coefficient"]):
+            reading = row["note"].split(";")[0] if "reading" in row["note"] else ""
+            laws.setdefault((row["source"], row["quantity"], reading), []).append(
+                tuple(row[k] for k in ("a_min", "a_max", "coefficient", "exponent")))
     return laws
 
 

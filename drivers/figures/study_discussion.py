@@ -2,7 +2,7 @@
 """Sentences of the study of the 24 columns, made from its numbers."""
 import numpy as np
 
-from study_rows import HEIGHT_LAW, RADIUS_LAW, values
+from figures.study_rows import HEIGHT_LAW, RADIUS_LAW, values
 
 AIM_MEAN, AIM_WORST = 5, 15  # %, of the errors against discrete elements of the same grains
 LAW_SPREAD = {"height": 25, "runout": 15}  # %: laws differ by so much among themselves (data/experiments/README.md)

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parts of a self-contained HTML page: pictures inside, tables, lists; compact pictures."""
 import base64
-import csv
 import html
 import io
 
 import numpy as np
 from PIL import Image
+
+from figures.table import columns_of
 
 PAGE = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>{title}</title>
 <style>body{{font:15px/1.45 sans-serif;max-width:76em;margin:2em auto;padding:0 1em}}img{{max-width:100%}}
@@ -27,10 +28,6 @@ def embedded(path, caption):
     data = base64.b64encode(path.read_bytes()).decode()
     caption = html.escape(caption)
     return f'<figure><img alt="{caption}" src="data:image/png;base64,{data}"><figcaption>{caption}</figcaption></figure>'
-
-
-def columns_of(rows):
-    return list(dict.fromkeys(name for row in rows for name in row))
 
 
 def shown(value):
@@ -67,10 +64,3 @@ def columns_head(columns):
 
 def text_bullets(sentences):
     return "".join(f"- {line}\n" for line in sentences)
-
-
-def write_table(path, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, columns_of(rows), restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({k: f"{v:.5g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)

@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of the study of the 24 columns, after Figs. 4 to 10 of Jin, Lu and Yang. Columns: dictionaries from
 (shape, packing, aspect ratio) to runs or discrete elements."""
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+from figures.draw import level_line, particles, surface
+from figures.style import AMBER, BLUE, GREEN, GREY, MM, ORANGE, SKY, plt, use
+from figures.study_data import ASPECTS, PACKINGS, SHAPES, STILL, farthest
+from figures.study_rows import HEIGHT_LAW, RADIUS_LAW, RUNOUT_LAW
 import numpy as np
 
-from figures import AMBER, BLUE, GREEN, GREY, MM, ORANGE, SKY, level_line, particles, surface
-from study_data import ASPECTS, PACKINGS, SHAPES, STILL, farthest
-from study_rows import HEIGHT_LAW, RADIUS_LAW, RUNOUT_LAW
-
+use(font_size=10, dpi=160)
 COLOUR = dict(zip(SHAPES, (BLUE, ORANGE, GREEN)))
 MARKER = {"dense": "o", "loose": "s"}
 NAMES = {"table4": "SPH, Table 4", "dem": "SPH, calibrated", "literal": "SPH, literal", "dem_packing":

@@ -2,7 +2,7 @@
 """Tables of the study of the 24 columns: one row a column; cost and error by spacing."""
 import numpy as np
 
-from study_data import SHAPES, deviation, fallen, law_value, outline_distance, undisturbed
+from figures.study_data import SHAPES, deviation, fallen, law_value, outline_distance, undisturbed
 
 HEIGHT_LAW, RUNOUT_LAW, RADIUS_LAW = "h_f / r_0", "(r_f - r_0) / r_0", "r_f / r_0"
 

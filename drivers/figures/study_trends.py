@@ -3,7 +3,7 @@
 of single runs counts as equal, and as neither holding nor failing."""
 import numpy as np
 
-from study_data import ASPECTS, PACKINGS, SHAPES, fallen, undisturbed
+from figures.study_data import ASPECTS, PACKINGS, SHAPES, fallen, undisturbed
 
 SCATTER = {"height": 0.01, "runout": 0.05, "undisturbed": 0.005}  # README: equal runs that differ in the step alone
 # Shape of the undisturbed zone (zone_shape). Its radius near the top (at nine tenths of its height) over that at the floor

@@ -4,15 +4,13 @@
 Usage: walls.py RESULT.h5 [-o DIR]"""
 import argparse
 import pathlib
+import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # the folder of this package
+from figures.result import Result
+from figures.style import plt
 import numpy as np
 from matplotlib.collections import EllipseCollection
-
-from result import Result
 
 GREY = "#999999"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/files/material_file.hpp"
+#include "drivers/files/resource.hpp"
 #include "vumat/parameters.hpp"
 #include <algorithm>
 #include <cmath>
@@ -88,12 +89,15 @@ void read_other(const Sources& sources, LoadedMaterial& out) {
     out.failure_state = int(failure.integer("failure_state", {1, double(states)})) - 1;
 }
 
-/// The bare name of a library that the build puts beside the program, which each program finds anew, or a path.
+/// A library of this project by its bare name, which each program finds anew; else the path of a file.
 std::string find_library(const TomlTable& source) {
   const auto name = source.text("library");
-  const auto shipped = host::beside_program(name);
   const bool bare = name.find('/') == std::string::npos;
-  return bare && std::filesystem::exists(shipped) ? shipped : source.path("library");
+  const auto found = material_library(name);
+  if (bare && found != name) return found;
+  const auto path = source.path("library");
+  if (!bare || std::filesystem::exists(path)) return path;
+  return source.text("library");
 }
 
 /// How the subroutine is to be called. One of which nothing is known gets all that ABAQUS would give it; SIMSAND
@@ -119,8 +123,8 @@ LoadedMaterial read_material(const TomlTable& table, std::optional<double> void_
   const auto& named = sources.of("name");
   const auto& located = sources.of("library");
   out.material.name = is_simsand ? named.text("name", {}, "SIMSAND") : named.text("name");
-  const auto library = is_simsand && !located.has("library") ? host::beside_program("libsimsand_vumat.so")
-                                                             : find_library(located);
+  const auto library =
+      is_simsand && !located.has("library") ? material_library("libsimsand_vumat.so") : find_library(located);
   out.is_simsand = is_simsand;
   if (is_simsand)
     read_simsand(sources, out);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/files/workbook.hpp"
 #include "drivers/files/decoded_text.hpp"
+#include "drivers/files/resource.hpp"
 #include "drivers/run/process.hpp"
-#include "host/material/library.hpp"
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ bool is_workbook(std::string_view bytes, const std::string& file) {
 }
 
 std::string workbook_text(const std::string& file, const std::string& sheet) {
-  const auto script = host::beside_program("workbook.py");
+  const auto script = resource("scripts/workbook.py");
   bool succeeded = false;
   auto text = output_of(script, {file, sheet}, succeeded);
   if (succeeded) return text;

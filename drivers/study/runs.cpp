@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/runs.hpp"
+#include "drivers/files/resource.hpp"
 #include "drivers/files/scene_file.hpp"
 #include "drivers/run/build_hash.hpp"
 #include "drivers/run/process.hpp"
@@ -130,11 +131,11 @@ void run_missing(std::vector<StudyRun> runs, const StudyOptions& options) {
 }
 
 void report_study(const std::string& script, const StudyOptions& options) {
-  const auto file = fs::path(options.data).parent_path() / "drivers/figures" / script;
+  const auto file = resource("figures/" + script);
   const Words arguments{options.folder, "--data", options.data};
-  if (run_python(file.string(), arguments) != 0)
+  if (run_python(file, arguments) != 0)
     throw std::runtime_error(fmt::format("the runs are complete, but their report failed; to repeat it: {}",
-                                         shell_text(python_command(file.string(), arguments))));
+                                         shell_text(python_command(file, arguments))));
 }
 
 void run_and_report(std::vector<StudyRun> runs, const std::string& script, const StudyOptions& options) {

@@ -10,8 +10,8 @@ import sys
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "drivers/figures"))
-from result import Result  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "drivers"))
+from figures.result import Result  # noqa: E402
 
 CELL, RING = 1.7, 2  # spacings; cells around that must be slow too: the kernel's reach and the skin, 3.4 spacings
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program of the charts: comparisons that support choices of the product and are no part of it.
-#include "host/material/library.hpp"
+#include "drivers/files/resource.hpp"
 #include "tests/charts/accuracy_chart.hpp"
 #include "tests/charts/cycles.hpp"
 #include "tests/charts/element_chart.hpp"
@@ -8,7 +8,6 @@
 #include "tests/charts/random_states.hpp"
 #include "tests/charts/stability.hpp"
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <fmt/format.h>
 #include <omp.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -98,7 +97,7 @@ void add_stability(CLI::App& app) {
 void add_accuracy(CLI::App& app) {
   static drivers::AccuracyChartOptions options;
   auto& study = options.study;
-  study.data = std::filesystem::weakly_canonical(host::beside_program("../data")).string();
+  study.data = drivers::data_folder();
   study.parallel = int(std::thread::hardware_concurrency());
   auto* accuracy = app.add_subcommand("accuracy", "Cost of a collapse against the error of its deposit");
   accuracy->add_option("-o,--output", study.folder, "folder for runs, tables and pictures")

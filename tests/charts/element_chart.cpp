@@ -37,7 +37,7 @@ void draw(const std::filesystem::path& folder) {
   drivers::Words tables{(folder / "element.csv").string()};
   if (const auto increments = folder / "increments.csv"; std::filesystem::exists(increments))
     tables.push_back(increments.string());
-  drivers::run_script("chart_figures.py", tables, folder.string());
+  drivers::run_script("charts/figures.py", tables, folder.string());
 }
 
 } // namespace

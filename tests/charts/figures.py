@@ -5,18 +5,13 @@
 ELEMENT.csv is written by `simsand-chart element`, which runs this script, INCREMENTS.csv by `simsand-chart increments`.
 """
 import argparse
-import csv
 import pathlib
 import sys
 
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    import numpy as np
-except ImportError as error:
-    sys.exit(f"figures.py: needs numpy and matplotlib ({error}): apt-get install python3-matplotlib")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "drivers"))
+from figures.style import plt, use
+from figures.table import read_rows
+import numpy as np
 
 # Colours that stay apart for colour-blind readers (Okabe and Ito).
 STYLE = {
@@ -29,17 +24,8 @@ STYLE = {
     "product, blocks": ("#D55E00", "o"),
     "product, blocks, single": ("#000000", "o"),
 }
-plt.rcParams.update({"font.size": 9, "savefig.dpi": 130, "legend.frameon": False})
-
-
-def rows_of(file):
-    with open(file) as lines:
-        rows = list(csv.DictReader(lines))
-    for row in rows:
-        for key, value in row.items():
-            if key not in ("integrator", "setting", "group", "member", "phase"):
-                row[key] = float(value or "nan")
-    return rows
+WORDS = ("integrator", "setting", "group", "member", "phase")
+use(font_size=9, dpi=130)
 
 
 def failing(row):
@@ -183,10 +169,10 @@ def main():
     arguments = parser.parse_args()
     folder = arguments.output or arguments.element.parent
     folder.mkdir(parents=True, exist_ok=True)
-    rows = rows_of(arguments.element)
+    rows = read_rows(arguments.element, WORDS)
     draw_fronts(rows, folder)
     if arguments.increments:
-        draw_sizes(rows, rows_of(arguments.increments), folder)
+        draw_sizes(rows, read_rows(arguments.increments, WORDS), folder)
     print(*sorted(folder.glob("*.png")), sep="\n")
 
 

@@ -5,13 +5,12 @@
 STABILITY.csv is written by `simsand-chart stability`.
 """
 import argparse
-import csv
 import pathlib
+import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "drivers"))
+from figures.style import plt, use
+from figures.table import read_rows
 import numpy as np
 from matplotlib.colors import ListedColormap
 
@@ -36,17 +35,7 @@ MEANING = {
 }
 WORDS = ("material", "geometry", "ended", "verdict")
 RECOMMENDED = {"smoothing_length": 1.5, "viscosity": 1, "stress_diffusion": 5, "step_factor": 0.4}
-plt.rcParams.update({"font.size": 8, "savefig.dpi": 120, "legend.frameon": False})
-
-
-def rows_of(file):
-    with open(file) as lines:
-        rows = list(csv.DictReader(lines))
-    for row in rows:
-        for key in row:
-            if key not in WORDS:
-                row[key] = float(row[key])
-    return rows
+use(font_size=8, dpi=120)
 
 
 def values(rows, key):
@@ -147,7 +136,7 @@ def main():
     options = parser.parse_args()
     folder = options.output or options.csv.parent
     folder.mkdir(parents=True, exist_ok=True)
-    rows = rows_of(options.csv)
+    rows = read_rows(options.csv, WORDS)
     for material in values(rows, "material"):
         draw_map(rows, material, folder)
     draw_quality(rows, folder)
