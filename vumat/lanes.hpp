@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers side by side in one vector register. The functions of the model are templates on the number: a
-// scalar, or `Lanes` of it. What differs between the two is here: comparison gives a mask, `select` chooses by it,
-// and exp, log, sqrt, min, max and abs are found for either. Compilers without wide vectors split them.
+// Numbers side by side in one vector register. The functions of the model are templates on the number: one number of
+// float or double, or `Lanes` of them. What differs between the two is here: a comparison gives a mask, and `select`
+// chooses by it. Without vector registers a lane is one number, and the same functions update one point after another.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-// Bytes of one register of lanes, by default the widest of the target; 0: no lanes, every point alone.
+// Bytes of one register, by default the widest of the target; 0: no vector registers.
 #ifndef SIMSAND_VECTOR_BYTES
 #if defined(__AVX512F__)
 #define SIMSAND_VECTOR_BYTES 64
@@ -31,156 +31,92 @@ using std::max;
 using std::min;
 using std::sqrt;
 
-/// Whether points are updated side by side, and how many.
-inline constexpr bool use_lanes = SIMSAND_VECTOR_BYTES > 0;
-template <class T> inline constexpr int lane_count = (use_lanes ? SIMSAND_VECTOR_BYTES : 16) / int(sizeof(T));
+inline constexpr bool use_registers = SIMSAND_VECTOR_BYTES > 0;
+/// Numbers in one register.
+template <class T>
+inline constexpr int lane_count = use_registers ? SIMSAND_VECTOR_BYTES / int(sizeof(T)) : 1;
 
 /// Integers as wide as T.
 template <class T> using BitsOf = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
 
-/// The compiler's vector of T in one register, and how many of them hold W.
-template <class T, int W> struct Registers {
-  static constexpr int bytes = use_lanes ? SIMSAND_VECTOR_BYTES : 16;
-  static constexpr int each = bytes / int(sizeof(T)), count = W / each;
+/// The compiler's vectors of one register.
+template <class T> struct Register {
+  static constexpr int bytes = use_registers ? SIMSAND_VECTOR_BYTES : 16;
   typedef T Vector __attribute__((vector_size(bytes)));
   typedef BitsOf<T> Integers __attribute__((vector_size(bytes)));
 };
 
-/// Calls f(0), f(1), ..., f(count - 1), written out: registers then stay registers.
-template <int count, class F> void for_each_register(const F& f) {
-  if constexpr (count > 1) for_each_register<count - 1>(f);
-  f(count - 1);
-}
+/// Truths, what a comparison of lanes gives.
+template <class T> struct LaneMask {
+  typename Register<T>::Integers v; // all bits set: true
 
-/// W truths, what a comparison of lanes gives.
-template <class T, int W> struct LaneMask {
-  using R = Registers<T, W>;
-  typename R::Integers v[R::count]; // all bits set: true
-
-  bool operator[](int k) const { return v[k / R::each][k % R::each] != 0; }
-  void set(int k, bool value) { v[k / R::each][k % R::each] = -BitsOf<T>(value); }
-  LaneMask& operator&=(const LaneMask& b) { return *this = *this & b; }
+  bool operator[](int k) const { return v[k] != 0; }
   LaneMask& operator|=(const LaneMask& b) { return *this = *this | b; }
-  friend LaneMask operator!(const LaneMask& a) {
-    return map([&](int i) { return ~a.v[i]; });
-  }
-  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) {
-    return map([&](int i) { return a.v[i] & b.v[i]; });
-  }
-  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) {
-    return map([&](int i) { return a.v[i] | b.v[i]; });
-  }
+  friend LaneMask operator!(const LaneMask& a) { return {~a.v}; }
+  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return {a.v & b.v}; }
+  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return {a.v | b.v}; }
   friend bool all(const LaneMask& a) {
-    auto every = a.v[0];
-    for (int i = 1; i < R::count; ++i) every &= a.v[i];
-    auto result = every[0];
-    for (int k = 1; k < R::each; ++k) result &= every[k];
+    auto result = a.v[0];
+    for (int k = 1; k < lane_count<T>; ++k) result &= a.v[k];
     return result != 0;
   }
-  template <class F> static LaneMask map(const F& f) {
-    LaneMask r;
-    for_each_register<R::count>([&](int i) { r.v[i] = f(i); });
-    return r;
-  }
 };
 
-/// W numbers T; arithmetic and comparison act on each. A scalar beside them stands for W equal ones.
-template <class T, int W> struct Lanes {
-  using R = Registers<T, W>;
-  using Vector = typename R::Vector;
-  using Integers = typename R::Integers;
-  using Truths = LaneMask<T, W>;
+/// The numbers T of one register; arithmetic and comparison act on each. One number beside them stands for equal ones.
+template <class T> struct Lanes {
+  using Vector = typename Register<T>::Vector;
+  using Truths = LaneMask<T>;
 
-  Vector v[R::count];
+  Vector v;
 
   Lanes() = default;
-  Lanes(T scalar) {
-    for_each_register<R::count>([&](int i) { v[i] = scalar - Vector{}; });
+  Lanes(T number) : v(number - Vector{}) {}
+  static Lanes of(const Vector& vector) {
+    Lanes r;
+    r.v = vector;
+    return r;
   }
 
-  T operator[](int k) const { return v[k / R::each][k % R::each]; }
-  void set(int k, T value) { v[k / R::each][k % R::each] = value; }
-
-  static Lanes read(const T* from) {
-    return map([&](int i) {
-      Vector r;
-      std::memcpy(&r, from + i * R::each, sizeof r);
-      return r;
-    });
-  }
-  void write(T* to) const {
-    for_each_register<R::count>([&](int i) { std::memcpy(to + i * R::each, &v[i], sizeof v[i]); });
-  }
+  T operator[](int k) const { return v[k]; }
+  void set(int k, T value) { v[k] = value; }
 
   Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
-  Lanes& operator*=(const Lanes& b) { return *this = *this * b; }
-  friend Lanes operator-(const Lanes& a) {
-    return map([&](int i) { return -a.v[i]; });
-  }
-  friend Lanes operator+(const Lanes& a, const Lanes& b) {
-    return map([&](int i) { return a.v[i] + b.v[i]; });
-  }
-  friend Lanes operator-(const Lanes& a, const Lanes& b) {
-    return map([&](int i) { return a.v[i] - b.v[i]; });
-  }
-  friend Lanes operator*(const Lanes& a, const Lanes& b) {
-    return map([&](int i) { return a.v[i] * b.v[i]; });
-  }
-  friend Lanes operator/(const Lanes& a, const Lanes& b) {
-    return map([&](int i) { return a.v[i] / b.v[i]; });
-  }
-  friend Truths operator<(const Lanes& a, const Lanes& b) {
-    return Truths::map([&](int i) { return a.v[i] < b.v[i]; });
-  }
-  friend Truths operator>(const Lanes& a, const Lanes& b) {
-    return Truths::map([&](int i) { return a.v[i] > b.v[i]; });
-  }
-  friend Truths operator<=(const Lanes& a, const Lanes& b) {
-    return Truths::map([&](int i) { return a.v[i] <= b.v[i]; });
-  }
-  friend Truths operator>=(const Lanes& a, const Lanes& b) {
-    return Truths::map([&](int i) { return a.v[i] >= b.v[i]; });
-  }
+  friend Lanes operator-(const Lanes& a) { return of(-a.v); }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return of(a.v + b.v); }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return of(a.v - b.v); }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return of(a.v * b.v); }
+  friend Lanes operator/(const Lanes& a, const Lanes& b) { return of(a.v / b.v); }
+  friend Truths operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
+  friend Truths operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
+  friend Truths operator<=(const Lanes& a, const Lanes& b) { return {a.v <= b.v}; }
+  friend Truths operator>=(const Lanes& a, const Lanes& b) { return {a.v >= b.v}; }
 
-  friend Lanes select(const Truths& mask, const Lanes& a, const Lanes& b) {
-    return map([&](int i) { return mask.v[i] ? a.v[i] : b.v[i]; });
-  }
-  friend Lanes min(const Lanes& a, const Lanes& b) {
-    return map([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; });
-  }
-  friend Lanes max(const Lanes& a, const Lanes& b) {
-    return map([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
-  }
+  friend Lanes select(const Truths& mask, const Lanes& a, const Lanes& b) { return of(mask.v ? a.v : b.v); }
+  friend Lanes min(const Lanes& a, const Lanes& b) { return of(a.v < b.v ? a.v : b.v); }
+  friend Lanes max(const Lanes& a, const Lanes& b) { return of(a.v > b.v ? a.v : b.v); }
   friend Lanes abs(const Lanes& a) { return max(a, -a); }
   friend Lanes sqrt(const Lanes& a) {
-    return map([&](int i) {
-      Vector r;
-      for (int k = 0; k < R::each; ++k) r[k] = std::sqrt(a.v[i][k]);
-      return r;
-    });
-  }
-
-  template <class F> static Lanes map(const F& f) {
     Lanes r;
-    for_each_register<R::count>([&](int i) { r.v[i] = f(i); });
+    for (int k = 0; k < lane_count<T>; ++k) r.v[k] = std::sqrt(a.v[k]);
     return r;
   }
 };
 
-template <class T> struct ScalarOf { using type = T; };
-template <class T, int W> struct ScalarOf<Lanes<T, W>> { using type = T; };
-/// The number that a lane holds, or the scalar itself.
-template <class Real> using Scalar = typename ScalarOf<Real>::type;
+/// What registers hold: lanes, or one number where there are no vector registers.
+template <class T> using Lane = std::conditional_t<use_registers, Lanes<T>, T>;
 
-/// Smallest positive number of full precision: a guard of divisors.
-template <class T> inline constexpr T tiny = std::numeric_limits<T>::min();
+template <class T> struct ScalarOf { using type = T; };
+template <class T> struct ScalarOf<Lanes<T>> { using type = T; };
+/// The type of one number.
+template <class Real> using Scalar = typename ScalarOf<Real>::type;
+template <class Real> inline constexpr bool is_one_number = std::is_floating_point_v<Real>;
+/// Numbers in a Real.
+template <class Real> inline constexpr int lanes_of = is_one_number<Real> ? 1 : lane_count<Scalar<Real>>;
 
 /// What a comparison of two Reals gives.
 template <class Real> using Mask = decltype(Real() < Real());
 
-inline bool select(bool mask, bool a, bool b) {
-  return mask ? a : b;
-}
+// The same for one number.
 inline double select(bool mask, double a, double b) {
   return mask ? a : b;
 }
@@ -189,5 +125,44 @@ inline float select(bool mask, float a, float b) {
 }
 inline bool all(bool mask) {
   return mask;
+}
+
+template <class Real> Scalar<Real> lane(const Real& a, int k) {
+  if constexpr (is_one_number<Real>)
+    return a;
+  else
+    return a[k];
+}
+template <class Real> void set_lane(Real& a, int k, Scalar<Real> value) {
+  if constexpr (is_one_number<Real>)
+    a = value;
+  else
+    a.set(k, value);
+}
+/// Numbers that stand one after another in memory.
+template <class Real> Real read(const Scalar<Real>* from) {
+  Real a;
+  std::memcpy(&a, from, sizeof a);
+  return a;
+}
+template <class Real> void write(const Real& a, Scalar<Real>* to) {
+  std::memcpy(to, &a, sizeof a);
+}
+
+// Bounds of any kind of number. They are written as double and rounded to the number's own precision.
+template <class Real> Real at_least(const Real& a, double bound) {
+  return max(a, Real(Scalar<Real>(bound)));
+}
+template <class Real> Real at_most(const Real& a, double bound) {
+  return min(a, Real(Scalar<Real>(bound)));
+}
+template <class Real> Real within(const Real& a, double lower, double upper) {
+  return at_most(at_least(a, lower), upper);
+}
+
+/// Smallest positive number of full precision. Divisors are kept above it.
+template <class T> inline constexpr T tiny = std::numeric_limits<T>::min();
+template <class Real> Real positive(const Real& divisor) {
+  return max(divisor, Real(tiny<Scalar<Real>>));
 }
 } // namespace simsand

@@ -2,11 +2,14 @@
 #include "vumat/parameters.hpp"
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace simsand {
 namespace {
 
-constexpr int p_at_index = 12, p_min_index = 13;
+constexpr int p_at_index = parameter_index("p_at"), p_min_index = parameter_index("p_min");
+// A fallback in units of p_at needs p_at before it.
+static_assert(0 <= p_at_index && p_at_index < p_min_index);
 
 /// Pressures above this share of p_at are no longer a numerical floor but a cohesion.
 constexpr double largest_floor_per_p_at = 0.1;
@@ -44,19 +47,12 @@ template <class Real> PropsError read_props(const Real* props, int count, Parame
   }
   if (value[p_min_index] > Real(largest_floor_per_p_at) * value[p_at_index])
     return {p_min_index + 1, "above 0.1 p_at"};
-  out = {value[0], value[1], value[2], value[3],  value[4],  value[5],  value[6],
-         value[7], value[8], value[9], value[10], value[11], value[12], value[13]};
+  std::memcpy(&out, value.data(), sizeof out); // the members stand in the order of the table
   return {};
 }
 
 template PropsError read_props(const float*, int, Parameters<float>&) noexcept;
 template PropsError read_props(const double*, int, Parameters<double>&) noexcept;
-
-int parameter_index(std::string_view key) noexcept {
-  for (int i = 0; i < int(parameters.size()); ++i)
-    if (parameters[i].key == key) return i;
-  return -1;
-}
 
 std::string parameter_table() {
   std::string out =

@@ -38,10 +38,31 @@ inline constexpr std::array<ParameterInfo, 14> parameters{{
     {"p_min", "p_min", "stress", 0, 1e7, 1e-5, "smallest mean stress in moduli and critical state line"},
 }};
 
-/// The numbers of one material, named as in EQUATIONS.md; phi in degrees.
+/// Position in PROPS, from 0, of the parameter with this key; -1: there is none.
+constexpr int parameter_index(std::string_view key) noexcept {
+  for (int i = 0; i < int(parameters.size()); ++i)
+    if (parameters[i].key == key) return i;
+  return -1;
+}
+
+/// Whether the keys of the table, in its order and separated by ", ", make up a text.
+constexpr bool are_parameters(std::string_view keys) noexcept {
+  for (const ParameterInfo& info : parameters) {
+    const bool last = &info == &parameters[parameters.size() - 1];
+    if (keys.substr(0, info.key.size()) != info.key) return false;
+    keys.remove_prefix(info.key.size());
+    if (keys.substr(0, 2) != (last ? "" : ", ")) return false;
+    keys.remove_prefix(last ? 0 : 2);
+  }
+  return keys.empty();
+}
+
+/// The numbers of one material, named and ordered as in the table; phi in degrees.
 template <class Real> struct Parameters {
   Real K0, nu, n, phi, e_ref, lambda, zeta, A_d, k_p, n_p, n_d, e0, p_at, p_min;
 };
+static_assert(are_parameters("K0, nu, n, phi, e_ref, lambda, zeta, A_d, k_p, n_p, n_d, e0, p_at, p_min"));
+static_assert(sizeof(Parameters<double>) == parameters.size() * sizeof(double));
 
 /// Why PROPS were refused; entry 0: they were not.
 struct PropsError {
@@ -51,9 +72,6 @@ struct PropsError {
 
 /// Reads and validates `count` PROPS. Entries beyond the table are ignored.
 template <class Real> PropsError read_props(const Real* props, int count, Parameters<Real>& out) noexcept;
-
-/// Position in PROPS, from 0, of the parameter with this key; -1: there is none.
-int parameter_index(std::string_view key) noexcept;
 
 struct StateInfo {
   std::string_view name, unit, meaning;
@@ -85,6 +103,12 @@ inline constexpr std::array<StateInfo, 5> state_variables{{
     {"nonconvex_updates", "-",
      "plastic updates with a peak friction beyond 46.5 degrees, where (7) is not convex"},
 }};
+
+static_assert(state_variables[statev::void_ratio].name == "void_ratio" &&
+              state_variables[statev::plastic_deviatoric_strain].name == "plastic_deviatoric_strain" &&
+              state_variables[statev::separation_strain].name == "separation_strain" &&
+              state_variables[statev::status].name == "status" &&
+              state_variables[statev::nonconvex_updates].name == "nonconvex_updates");
 
 /// The two tables as Markdown, for manuals.
 std::string parameter_table();

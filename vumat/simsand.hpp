@@ -1,49 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SIMSAND, critical state model of sand: state, status and update of one point, as pure functions without
-// exceptions or allocation. Equations and signs: EQUATIONS.md. Compression positive; stress in the unit of p_at.
+// SIMSAND, critical state model of sand: one material point, as pure functions without exceptions or allocation.
+// Equations and signs: EQUATIONS.md. Compression positive; stress in the unit of p_at.
 #pragma once
-#include "vumat/functions.hpp"
-#include "vumat/tensor.hpp"
+#include "vumat/integrals.hpp"
+#include "vumat/state.hpp"
 
 namespace simsand {
 
-/// A material point between two updates.
-template <class Real, int N> struct Point {
-  SymmetricTensor<Real, N> stress; ///< compression positive
-  Real void_ratio = 0;
-  Real plastic_strain = 0;    ///< eps_d (11)
-  Real separation_strain = 0; ///< positive: stress free
-};
-
-template <class Real, int N> struct Update {
-  Point<Real, N> point;
+template <class T, int N> struct Update {
+  SoilState<T, N> state;
   Status status;
-  Real dissipation; ///< plastic work per volume, stress unit
-  bool nonconvex;   ///< plastic, with (7) beyond its convex range
+  T dissipation;  ///< plastic work per volume, stress unit
+  bool nonconvex; ///< plastic, with (7) beyond its convex range
 };
 
-/// Whether a point and a strain increment are finite and the state is one that an update may start from.
-template <class Real, int N>
-Mask<Real> admissible(const Point<Real, N>& point, const SymmetricTensor<Real, N>& strain) {
-  Real sum = point.void_ratio + point.plastic_strain + abs(point.separation_strain);
-  for (int c = 0; c < N; ++c) sum += abs(point.stress[c]) + abs(strain[c]);
-  const Real zero = 0;
-  return (sum <= std::numeric_limits<Scalar<Real>>::max()) & (point.void_ratio > zero) &
-         (point.plastic_strain >= zero);
-}
+/// The state of the first update: void ratio e, the stress on the yield surface.
+template <class T, int N>
+SoilState<T, N> initial_state(const Material<T>& m, const SymmetricTensor<T, N>& stress, T e);
 
-/// The point of the first update: void ratio e0, the stress on the yield surface.
-template <class Real, int N>
-Point<Real, N> initial_point(const Material<Real>& m, const SymmetricTensor<Real, N>& stress, Real e);
+/// The state after a strain increment. Where it fails, the old state.
+template <class T, int N>
+Update<T, N> update(const Material<T>& m, const SoilState<T, N>& old,
+                    const SymmetricTensor<T, N>& strain_increment) noexcept;
 
-/// The point after a strain increment.
-template <class Real, int N>
-Update<Real, N> update(const Material<Real>& m, const Point<Real, N>& old,
-                       const SymmetricTensor<Real, N>& strain_increment) noexcept;
-
-/// Isotropic linear elastic answer with the moduli of the point as it stands.
-template <class Real, int N>
-SymmetricTensor<Real, N> elastic_stress(const Material<Real>& m, const Point<Real, N>& point,
-                                        const SymmetricTensor<Real, N>& strain_increment);
+/// Isotropic linear elastic answer with the moduli of the state as it stands.
+template <class T, int N>
+SymmetricTensor<T, N> elastic_stress(const Material<T>& m, const SoilState<T, N>& state,
+                                     const SymmetricTensor<T, N>& strain_increment);
 
 } // namespace simsand

@@ -12,7 +12,7 @@ import re
 import sys
 import unicodedata
 
-SOURCES = ["vumat/vumat.cpp", "vumat/simsand.cpp", "vumat/parameters.cpp"]
+SOURCES = ["vumat/vumat.cpp", "vumat/simsand.cpp", "vumat/rescue.cpp", "vumat/parameters.cpp"]
 
 HEAD = """\
 // SPDX-License-Identifier: BSD-3-Clause

@@ -22,7 +22,7 @@ SymmetricTensor<Real, N> add(SymmetricTensor<Real, N> a, Real factor, const Symm
 }
 
 template <class Real, int N> SymmetricTensor<Real, N> scale(Real factor, SymmetricTensor<Real, N> a) {
-  for (int c = 0; c < N; ++c) a[c] *= factor;
+  for (int c = 0; c < N; ++c) a[c] = a[c] * factor;
   return a;
 }
 
@@ -67,7 +67,7 @@ template <class Real, int N> Real deviatoric_stress(const SymmetricTensor<Real, 
 template <class Real, int N> Real sin_3theta(const SymmetricTensor<Real, N>& s, Real q) {
   const Real inverse = select(q > tiny<Scalar<Real>>, 1 / q, Real(0));
   const Real sine = Real(-13.5) * determinant(scale(inverse, s));
-  return min(max(sine, Real(-1)), Real(1));
+  return within(sine, -1, 1);
 }
 
 } // namespace simsand

@@ -2,34 +2,33 @@
 // The VUMAT: which task, which properties, which block, and no physics. Arguments: abi.hpp.
 // Failure is never silent: STATEV(4) is negative (simsand.hpp, Status) and the stress is NaN.
 #include "vumat/abi.hpp"
-#include "vumat/block_lanes.hpp"
+#include "vumat/rounds.hpp"
 
 namespace simsand {
 namespace {
 
-template <class Real, int N> void run_points(const Material<Real>& m, const Block<Real>& b, Task task) {
-  if constexpr (use_lanes)
-    if (task == Task::increment) return run_lanes<Real, N>(m, b);
-  for (int k = 0; k < b.points; ++k) run_point<Real, N>(m, b, task, k);
+template <class T, int N> void run_points(const Material<T>& m, const Block<T>& b, Task task) {
+  if (task == Task::increment) return run_increments<T, N>(m, b);
+  for (int k = 0; k < b.points; ++k) run_point<T, N>(m, b, task, k);
 }
 
-template <class Real>
-void run(const Block<Real>& b, int direct, int shear, const Real* props, int prop_count, Task task) noexcept {
+template <class T>
+void run(const Block<T>& b, int direct, int shear, const T* props, int prop_count, Task task) noexcept {
   keep_old(b);
-  Parameters<Real> parameters;
+  Parameters<T> parameters;
   const PropsError refused = read_props(props, prop_count, parameters);
   const bool supported =
       direct == 3 && (shear == 1 || shear == 3) && b.state_count >= int(state_variables.size());
   if (!supported || refused.entry) {
     const int code = supported ? int(Status::bad_property) - refused.entry : int(Status::unsupported);
-    for (int k = 0; k < b.points; ++k) fail(b, direct + shear, k, Real(code));
+    for (int k = 0; k < b.points; ++k) fail(b, direct + shear, k, code);
     return;
   }
-  const Material<Real> material(parameters);
+  const Material<T> material(parameters);
   if (shear == 1)
-    run_points<Real, 4>(material, b, task);
+    run_points<T, 4>(material, b, task);
   else
-    run_points<Real, 6>(material, b, task);
+    run_points<T, 6>(material, b, task);
 }
 
 } // namespace

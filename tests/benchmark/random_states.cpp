@@ -43,7 +43,7 @@ States random_states(int count, std::array<double, 2> decades) {
     const Tensor stress = simsand::add_mean(simsand::scale(q, s), p);
     const Tensor strain = simsand::add_mean(simsand::scale(length / 2, simsand::add(s, 1., d)), volume / 3);
     const double e = 0.58 + 0.22 * uniform(random);
-    const double eps_d = simsand::initial_point(material, stress, e).plastic_strain;
+    const double eps_d = simsand::initial_state(material, stress, e).plastic_strain;
     states.updates.push_back({tension_positive(stress), tension_positive(strain), {e, eps_d, 0, 0, 0}, 1600});
   }
   return states;

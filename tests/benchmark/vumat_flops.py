@@ -22,7 +22,7 @@ import numpy as np
 
 FLAGS = ["-O3", "-std=c++20", "-shared", "-fPIC", "-fvisibility=hidden", "-fno-math-errno", "-fno-trapping-math",
          "-ffp-contract=fast", "-march=haswell", "-fno-tree-slp-vectorize", "-fno-gcse", "-Wno-psabi"]
-SOURCES = ["vumat/vumat.cpp", "vumat/simsand.cpp", "vumat/parameters.cpp"]
+SOURCES = ["vumat/vumat.cpp", "vumat/simsand.cpp", "vumat/rescue.cpp", "vumat/parameters.cpp"]
 BLOCK, STATES, DENSITY = 64, 5, 1700.0
 LANES = {"pd": {"ymm": 4, "xmm": 2}, "sd": {"ymm": 1, "xmm": 1}}
 ARITHMETIC = re.compile(r"^v?(fn?m(?:add|sub)\w*?|add|sub|mul|div|sqrt|max|min)(?:132|213|231)?(pd|sd)$")

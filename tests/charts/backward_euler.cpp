@@ -44,8 +44,8 @@ Iterate evaluate(const Problem& a, double y, double x) {
   const double p_y = m.given.p_at * end.stiffness; // dp/dy
   const double log_y = floored ? 0 : p_y / p;      // d ln p/dy above p_min
   const double G_y = floored ? 0 : stiff / 2 * m.given.n * end.stiffness * log_y;
-  const double M_y = m.given.n_p * M.peak * M.peak_rate * M.density_change * log_y;
-  const double Mpt_y = -m.given.n_d * M.transformation * M.transformation_rate * M.density_change * log_y;
+  const double M_y = m.given.n_p * M.peak * M.peak_rate * M.critical_rate * log_y;
+  const double Mpt_y = -m.given.n_d * M.transformation * M.transformation_rate * M.critical_rate * log_y;
   const double q_G = at.q_trial > 0 ? 3 * simsand::contract(at.s_trial, a.deviator) / at.q_trial : 0;
   const double h_x = m.given.k_p / (b * b);
   at.volume_y = 1 + a.stiffening * x * m.given.A_d * (Mpt_y - M_y * h);

@@ -47,14 +47,14 @@ CycleEnergy lead_through(const Material& m, Point& point, const std::vector<Tens
         sum.failed = true;
         return sum;
       }
-      const double work = simsand::contract(simsand::add(point.stress, 1., next.point.stress), part) / 2;
-      const auto a = energies(m, point), b = energies(m, next.point);
+      const double work = simsand::contract(simsand::add(point.stress, 1., next.state.stress), part) / 2;
+      const auto a = energies(m, point), b = energies(m, next.state);
       sum.work += work;
       sum.gross += std::abs(work);
       sum.dissipation += next.dissipation;
       sum.defect +=
           (a.shear + b.shear) / 2 * (b.log_G - a.log_G) + (a.volume + b.volume) / 2 * (b.log_g - a.log_g);
-      point = next.point;
+      point = next.state;
     }
   }
   sum.stored = stored_energy(m, point) - before;

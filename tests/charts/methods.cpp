@@ -29,7 +29,7 @@ Method point_by_point(std::string name, std::string setting, PointUpdate update,
 
 Answer product_point(const Material& m, const Point& old, const Tensor& strain) {
   const auto out = simsand::update(m, old, strain);
-  return {out.point, int(out.status) >= 0};
+  return {out.state, int(out.status) >= 0};
 }
 
 /// The product's library in blocks of 128; a block that is not full repeats its last point, which is not counted.

@@ -103,7 +103,7 @@ std::string compare(const Material& m, const RandomPoint& r, const Point& after,
                           r.origin == Origin::no_stress || r.origin == Origin::first_call;
   if (!comparable) return ""; // no start that the rates of the model could have led to
   const auto start =
-      r.origin == Origin::first_call ? simsand::initial_point(m, r.point.stress, m.given.e0) : r.point;
+      r.origin == Origin::first_call ? simsand::initial_state(m, r.point.stress, m.given.e0) : r.point;
   if (yield_of(m, start) > 1e-6 * std::max(mean(start.stress), 0.0))
     return ""; // a first stress beyond strength
   const auto exact = integrate_rates(m, start, r.strain);

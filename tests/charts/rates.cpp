@@ -42,7 +42,7 @@ Local local(const Material& m, const Point& point, const Tensor& deviator_hint) 
   at.dilatancy = simsand::dilatancy(m, M.transformation, M.peak, h);
   const bool floored = at.p < m.given.p_min;
   const double M_of_density = m.given.n_p * M.peak * M.peak_rate; // dM / d ln(e_c / e)
-  at.f_p = -h * (M.peak + (floored ? 0 : M_of_density * M.density_change));
+  at.f_p = -h * (M.peak + (floored ? 0 : M_of_density * M.critical_rate));
   at.f_e = at.p * h * M_of_density / point.void_ratio;
   at.hardening = at.p * M.peak * m.given.k_p / (b * b);
   at.void_per_strain = 1 + point.void_ratio;
@@ -78,7 +78,7 @@ Rate plastic_rate(const Local& at, const Tensor& strain) {
 
 Point moved(const Point& from, double h, const Rate& rate) {
   return {simsand::add(from.stress, h, rate.stress),
-          std::max(from.void_ratio + h * rate.e, simsand::smallest_void_ratio<double>),
+          std::max(from.void_ratio + h * rate.e, simsand::smallest_void_ratio),
           from.plastic_strain + h * rate.eps_d, 0};
 }
 

@@ -43,7 +43,7 @@ Case case_of(const Material& m, const std::vector<double>& row) {
   c.start.void_ratio = row[8];
   c.start.plastic_strain = row[9];
   c.start.separation_strain = row[10];
-  c.start = simsand::update(m, c.start, Tensor{}).point;
+  c.start = simsand::update(m, c.start, Tensor{}).state;
   c.pressure = mean(c.start.stress);
   c.increment = norm(c.strain[0]);
   c.path = size_of(c.increment);

@@ -10,7 +10,7 @@
 namespace charts {
 
 using Tensor = simsand::SymmetricTensor<double, 6>;
-using Point = simsand::Point<double, 6>;
+using Point = simsand::SoilState<double, 6>;
 using Material = simsand::Material<double>;
 
 /// A sand of data/materials: its friction angle (degrees), critical void ratio at zero pressure, and the void ratios

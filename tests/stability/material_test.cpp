@@ -37,7 +37,7 @@ TEST(Material, ShearNoiseNearTheApexPumpsNoPressure) {
   faults = {.trial_dilatancy = true};
   const double naive = pumped([](const Point& p, const Tensor& d) { return naive_update(sand, p, d); });
   const double ours =
-      pumped([](const Point& p, const Tensor& d) { return simsand::update(sand, p, d).point; });
+      pumped([](const Point& p, const Tensor& d) { return simsand::update(sand, p, d).state; });
   std::printf("mean stress after 200 bursts from 1 Pa: trial state %.3g Pa, ours %.3g Pa\n", naive, ours);
   EXPECT_GT(naive, 10);
   EXPECT_LE(ours, 1 + 1e-9);
@@ -56,7 +56,7 @@ template <class Update> Point cycled(Update&& update) {
 TEST(Material, PartingAndMeetingAgainReturnsTheStress) {
   faults = {.no_gap = true};
   const auto naive = cycled([](const Point& p, const Tensor& d) { return naive_update(sand, p, d); });
-  const auto ours = cycled([](const Point& p, const Tensor& d) { return simsand::update(sand, p, d).point; });
+  const auto ours = cycled([](const Point& p, const Tensor& d) { return simsand::update(sand, p, d).state; });
   std::printf("mean stress after 20 cycles from 1000 Pa: gap forgotten %.6g Pa, ours %.6g Pa\n",
               charts::mean(naive.stress), charts::mean(ours.stress));
   EXPECT_GT(charts::mean(naive.stress), 1e4);

@@ -18,7 +18,7 @@ inline Faults faults;
 inline charts::Point naive_update(const charts::Material& m, charts::Point old,
                                   const charts::Tensor& strain) {
   if (faults.no_gap) old.separation_strain = 0;
-  auto end = simsand::update(m, old, strain).point;
+  auto end = simsand::update(m, old, strain).state;
   if (faults.no_gap) end.separation_strain = 0;
   const double multiplier = end.plastic_strain - old.plastic_strain;
   const auto trial = charts::elastic_answer(m, old, strain).point;
@@ -59,7 +59,7 @@ inline void naive_vumat(const int* nblock, const int* ndir, const int* nshr, con
     point.plastic_strain = stateOld[statev::plastic_deviatoric_strain * n + k];
     point.separation_strain = stateOld[statev::separation_strain * n + k];
     if (e == 0) { // as the product does: inside of its yield surface from the start
-      const auto start = simsand::initial_point(m, point.stress, point.void_ratio);
+      const auto start = simsand::initial_state(m, point.stress, point.void_ratio);
       point.plastic_strain = start.plastic_strain;
     }
     const auto end =

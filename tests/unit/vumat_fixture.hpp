@@ -13,7 +13,7 @@ extern "C" vumat::Subroutine<double> vumat_;
 namespace vumat_test {
 
 using Tensor6 = simsand::SymmetricTensor<double, 6>;
-using Point6 = simsand::Point<double, 6>;
+using State6 = simsand::SoilState<double, 6>;
 
 inline constexpr double p_at = 101325; // Pa
 
@@ -61,7 +61,7 @@ template <class Generator> Tensor6 random_deviator(Generator& random) {
 }
 
 /// Yield function (8) of a point as a host could evaluate it.
-inline double yield_of(const simsand::Material<double>& m, const Point6& point) {
+inline double yield_of(const simsand::Material<double>& m, const State6& point) {
   const auto s = simsand::deviator(point.stress);
   const double p = mean(point.stress), q = simsand::deviatoric_stress(s);
   const auto M =

@@ -141,15 +141,15 @@ TEST(VumatFunctions, SmallIsotropicAndShearStrainsSeeTheModuli) {
   for (const double p : {50., 2e3, 2e5}) {
     const double K = 100 * p_at * std::pow(2.97 - 0.6, 2) / 1.6 * std::pow(p / p_at, 0.51); // (1)
     const double G = 3 * K * (1 - 2 * 0.2) / (2 * (1 + 0.2));                               // (2)
-    const Point6 old{isotropic(p), 0.6, 0.1, 0};
+    const State6 old{isotropic(p), 0.6, 0.1, 0};
     const auto s = random_deviator(random);
     const double dv = 1e-7;
-    const double dp = mean(update(m, old, isotropic(dv / 3)).point.stress) -
-                      mean(update(m, old, isotropic(-dv / 3)).point.stress);
+    const double dp = mean(update(m, old, isotropic(dv / 3)).state.stress) -
+                      mean(update(m, old, isotropic(-dv / 3)).state.stress);
     EXPECT_NEAR(dp / (2 * dv), K, 1e-5 * K);
     const auto sheared = update(m, old, scale(dv, s));
     EXPECT_EQ(sheared.status, Status::elastic);
-    EXPECT_NEAR(q_of(sheared.point.stress) / (2 * dv), G, 1e-6 * G);
+    EXPECT_NEAR(q_of(sheared.state.stress) / (2 * dv), G, 1e-6 * G);
     const auto linear = elastic_stress(m, old, add_mean(scale(dv, s), dv / 3));
     EXPECT_NEAR(mean(linear) - p, K * dv, 1e-9 * K * dv + 1e-15 * p);
     EXPECT_NEAR(q_of(linear), 2 * G * dv, 1e-9 * G * dv);

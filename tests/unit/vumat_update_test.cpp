@@ -16,11 +16,11 @@ struct Rate {
   double e, eps_d;
 };
 
-Point6 moved(const Point6& a, double h, const Rate& r) {
+State6 moved(const State6& a, double h, const Rate& r) {
   return {simsand::add(a.stress, h, r.stress), a.void_ratio + h * r.e, a.plastic_strain + h * r.eps_d, 0};
 }
 
-Rate rate(const simsand::Material<double>& m, const Point6& a, const Tensor6& strain_rate) {
+Rate rate(const simsand::Material<double>& m, const State6& a, const Tensor6& strain_rate) {
   const double p = mean(a.stress), q = q_of(a.stress);
   const auto s = simsand::deviator(a.stress);
   const auto pressure = simsand::pressure_of_mean_stress(m, p);
@@ -40,7 +40,7 @@ Rate rate(const simsand::Material<double>& m, const Point6& a, const Tensor6& st
   return {simsand::add(elastic.stress, x, plastic.stress), elastic.e, x};
 }
 
-Point6 runge_kutta(const simsand::Material<double>& m, Point6 a, const Tensor6& strain, int steps) {
+State6 runge_kutta(const simsand::Material<double>& m, State6 a, const Tensor6& strain, int steps) {
   const double h = 1.0 / steps;
   for (int i = 0; i < steps; ++i) {
     const Rate k1 = rate(m, a, strain), k2 = rate(m, moved(a, h / 2, k1), strain);
@@ -50,23 +50,23 @@ Point6 runge_kutta(const simsand::Material<double>& m, Point6 a, const Tensor6& 
   return a;
 }
 
-Point6 in_increments(const simsand::Material<double>& m, Point6 a, const Tensor6& strain, int steps) {
-  for (int i = 0; i < steps; ++i) a = simsand::update(m, a, simsand::scale(1.0 / steps, strain)).point;
+State6 in_increments(const simsand::Material<double>& m, State6 a, const Tensor6& strain, int steps) {
+  for (int i = 0; i < steps; ++i) a = simsand::update(m, a, simsand::scale(1.0 / steps, strain)).state;
   return a;
 }
 
 /// A point on the yield surface at half of its peak strength, in triaxial compression.
-Point6 half_mobilised(const simsand::Material<double>& m, double p, double e) {
+State6 half_mobilised(const simsand::Material<double>& m, double p, double e) {
   const auto M = simsand::slopes(m, e, simsand::pressure_of_mean_stress(m, p), -1.);
   const double q = M.peak * p / 2;
-  return simsand::initial_point(m, simsand::add_mean(Tensor6{{2 * q / 3, -q / 3, -q / 3}}, p), e);
+  return simsand::initial_state(m, simsand::add_mean(Tensor6{{2 * q / 3, -q / 3, -q / 3}}, p), e);
 }
 
 TEST(VumatUpdate, FollowsTheRateEquationsAlongATurningPath) {
   for (const auto& shape : shapes)
     for (const double e : {shape.dense, 0.8}) {
       const auto m = material(shape);
-      const Point6 start = half_mobilised(m, 2e3, e);
+      const State6 start = half_mobilised(m, 2e3, e);
       // Mostly axial, with shear that turns the principal axes; loose sand is let contract, or it would lose
       // its stress.
       const Tensor6 turning{{4.5e-3, -3.2e-3, -1.3e-3, 1e-3, 5e-4, -7e-4}};
@@ -85,7 +85,7 @@ TEST(VumatUpdate, FollowsTheRateEquationsAlongATurningPath) {
 
 TEST(VumatUpdate, IsOfSecondOrderWhereTheDeviatorDoesNotTurn) {
   const auto m = material(SS);
-  const Point6 start = half_mobilised(m, 2e3, 0.58);
+  const State6 start = half_mobilised(m, 2e3, 0.58);
   const Tensor6 strain{{4e-3, -2.2e-3, -2.2e-3}};
   const double exact = q_of(runge_kutta(m, start, strain, 4000).stress);
   const double coarse = q_of(in_increments(m, start, strain, 10).stress) - exact;
@@ -96,7 +96,7 @@ TEST(VumatUpdate, IsOfSecondOrderWhereTheDeviatorDoesNotTurn) {
 
 TEST(VumatUpdate, ErrorOfATurningDeviatorFallsNearlyWithTheSquareOfTheStep) {
   const auto m = material(SS);
-  const Point6 start = half_mobilised(m, 2e3, 0.58);
+  const State6 start = half_mobilised(m, 2e3, 0.58);
   const Tensor6 strain{{1e-4, -1e-4, 0, 4e-4, 0, -2e-4}};
   const auto exact = runge_kutta(m, start, strain, 4000).stress;
   const auto error = [&](int steps) {
@@ -113,10 +113,10 @@ TEST(VumatUpdate, EndsAtTheCriticalState) {
     for (const double e0 : {shapes[i].dense, 0.85}) {
       const auto m = material(shapes[i]);
       const double cell = 5e3;
-      Point6 point{isotropic(cell), e0, 0, 0};
+      State6 point{isotropic(cell), e0, 0, 0};
       double lateral = 0;
       for (int step = 0; step < 4000; ++step) { // axial strain 1e-3 each, lateral stress held by secants
-        const auto at = [&](double l) { return simsand::update(m, point, Tensor6{{1e-3, l, l}}).point; };
+        const auto at = [&](double l) { return simsand::update(m, point, Tensor6{{1e-3, l, l}}).state; };
         double a = lateral, b = lateral - 1e-6, fa = at(a).stress[1] - cell, fb = at(b).stress[1] - cell;
         for (int k = 0; k < 50 && std::abs(fb) > 1e-8 * cell && fb != fa; ++k) {
           const double next = b - fb * (b - a) / (fb - fa);
@@ -136,10 +136,10 @@ TEST(VumatUpdate, EndsAtTheCriticalState) {
 
 TEST(VumatUpdate, ReturnsFromElasticCyclesWhateverTheIncrements) {
   const auto m = material(TS);
-  Point6 point{isotropic(1e3), 0.6, 0, 0};
-  for (int i = 0; i < 10; ++i) point = simsand::update(m, point, isotropic(1e-3)).point;
-  point = simsand::update(m, point, isotropic(-6e-3)).point;
-  for (int i = 0; i < 1000; ++i) point = simsand::update(m, point, isotropic(-4e-6)).point;
+  State6 point{isotropic(1e3), 0.6, 0, 0};
+  for (int i = 0; i < 10; ++i) point = simsand::update(m, point, isotropic(1e-3)).state;
+  point = simsand::update(m, point, isotropic(-6e-3)).state;
+  for (int i = 0; i < 1000; ++i) point = simsand::update(m, point, isotropic(-4e-6)).state;
   EXPECT_NEAR(mean(point.stress), 1e3, 1e-6);
   EXPECT_NEAR(point.void_ratio, 0.6, 1e-12);
   EXPECT_EQ(point.plastic_strain, 0);
@@ -151,7 +151,7 @@ TEST(VumatUpdate, FirstCallPlacesTheStressOnTheYieldSurface) {
   for (int i = 0; i < 100; ++i) {
     const auto s = random_deviator(random);
     const double p = 1e3, eta = 0.01 * i;
-    const auto point = simsand::initial_point(m, simsand::add_mean(simsand::scale(eta * p, s), p), 0.58);
+    const auto point = simsand::initial_state(m, simsand::add_mean(simsand::scale(eta * p, s), p), 0.58);
     const auto M =
         simsand::slopes(m, 0.58, simsand::pressure_of_mean_stress(m, p), simsand::sin_3theta(s, 1.));
     if (eta < 0.98 * M.peak) {
@@ -160,10 +160,10 @@ TEST(VumatUpdate, FirstCallPlacesTheStressOnTheYieldSurface) {
     }
     const auto updated = simsand::update(m, point, Tensor6{}); // beyond M_p: returned, never above
     EXPECT_GE(int(updated.status), 0);
-    EXPECT_LE(yield_of(m, updated.point), 1e-6 * mean(updated.point.stress));
+    EXPECT_LE(yield_of(m, updated.state), 1e-6 * mean(updated.state.stress));
   }
-  EXPECT_EQ(simsand::initial_point(m, isotropic(1e3), 0.58).plastic_strain, 0);
-  EXPECT_EQ(mean(simsand::initial_point(m, isotropic(-1e3), 0.58).stress), 0);
+  EXPECT_EQ(simsand::initial_state(m, isotropic(1e3), 0.58).plastic_strain, 0);
+  EXPECT_EQ(mean(simsand::initial_state(m, isotropic(-1e3), 0.58).stress), 0);
 }
 
 TEST(VumatUpdate, CountsOnlyPlasticUpdatesBeyondTheConvexRange) {
@@ -177,15 +177,15 @@ TEST(VumatUpdate, CountsOnlyPlasticUpdatesBeyondTheConvexRange) {
 
 TEST(VumatUpdate, BadStatesFailAndChangeNothing) {
   const auto m = material(SS);
-  const Point6 good{isotropic(1e3), 0.6, 0.01, 0};
+  const State6 good{isotropic(1e3), 0.6, 0.01, 0};
   const Tensor6 strain{{1e-4, 0, 0}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (Point6 bad : {Point6{isotropic(nan), 0.6, 0, 0}, Point6{isotropic(1), nan, 0, 0},
-                     Point6{isotropic(1), -0.1, 0, 0}, Point6{isotropic(1), 0.6, -1e-3, 0}})
+  for (State6 bad : {State6{isotropic(nan), 0.6, 0, 0}, State6{isotropic(1), nan, 0, 0},
+                     State6{isotropic(1), -0.1, 0, 0}, State6{isotropic(1), 0.6, -1e-3, 0}})
     EXPECT_EQ(simsand::update(m, bad, strain).status, Status::bad_input);
   const auto failed = simsand::update(m, good, Tensor6{{nan, 0, 0}});
   EXPECT_EQ(failed.status, Status::bad_input);
-  EXPECT_EQ(failed.point.void_ratio, good.void_ratio);
+  EXPECT_EQ(failed.state.void_ratio, good.void_ratio);
 }
 
 TEST(VumatUpdate, ContractionAtZeroPressureIsNotLeaptOver) {
@@ -193,24 +193,24 @@ TEST(VumatUpdate, ContractionAtZeroPressureIsNotLeaptOver) {
   const auto m = material(TS);
   const Tensor6 shear{{-0.021844805076736393, -0.002714531135492053, 0.024559336212228448,
                        -0.022770329361894947, 0.0069086007978424431, 0.015801482398705866}};
-  const auto after = simsand::update(m, Point6{{}, 0.68711157054898142, 0.0039891691249632228, 0}, shear);
+  const auto after = simsand::update(m, State6{{}, 0.68711157054898142, 0.0039891691249632228, 0}, shear);
   EXPECT_EQ(after.status, Status::stress_free);
-  EXPECT_EQ(simsand::trace(after.point.stress), 0);
+  EXPECT_EQ(simsand::trace(after.state.stress), 0);
 }
 
 TEST(VumatUpdate, DirectionOfASofterTrialIsCutIntoSubsteps) {
   // Extension that dilation makes up for: the trial, of half the shear modulus, turns the deviator too far, and M with it.
   const auto m = material(SS);
-  const Point6 start{{{50306.590327650796, 6029.6949182611243, 312876.62536793621, 23700.892507186847, 0, 0}},
+  const State6 start{{{50306.590327650796, 6029.6949182611243, 312876.62536793621, 23700.892507186847, 0, 0}},
                      0.33813655446441826,
                      0.22590929603669402,
                      0};
   const Tensor6 strain{
       {-0.010986566404064356, -0.0092504472537868147, 0.003949340499936488, -0.0025990607555818183, 0, 0}};
   const int parts = 4096;
-  Point6 fine = start;
-  for (int i = 0; i < parts; ++i) fine = simsand::update(m, fine, simsand::scale(1. / parts, strain)).point;
-  const auto off = simsand::add(simsand::update(m, start, strain).point.stress, -1., fine.stress);
+  State6 fine = start;
+  for (int i = 0; i < parts; ++i) fine = simsand::update(m, fine, simsand::scale(1. / parts, strain)).state;
+  const auto off = simsand::add(simsand::update(m, start, strain).state.stress, -1., fine.stress);
   const auto size = [](const Tensor6& t) { return std::sqrt(simsand::contract(t, t)); };
   EXPECT_LT(size(off), 0.05 * size(fine.stress)); // 0.11 without the term of (20) for it
 }
@@ -220,7 +220,7 @@ TEST(VumatUpdate, RoundingOfAnIsotropicStressHasNoDirection) {
   const auto m = material(SS);
   for (int i = 0; i < 100; ++i) {
     const double p = 1000 + 0.1 * i;
-    const Point6 isotropic{{{p, p * (1 + 2e-16), p, 0, 0, 1e-16 * p}}, 0.58, 0, 0};
+    const State6 isotropic{{{p, p * (1 + 2e-16), p, 0, 0, 1e-16 * p}}, 0.58, 0, 0};
     const auto after = simsand::update(m, isotropic, {{1e-6, -1e-6, 1e-6, 1e-6, 0, 0}});
     EXPECT_EQ(after.status, Status::plastic) << p;
   }
@@ -230,7 +230,7 @@ TEST(VumatUpdate, ATrialThatSeriesTakeForElasticIsReturned) {
   // Compression by many times the stress: e_c and e fall by nearly the same, and the slope of e_c changes on the way.
   struct Found {
     Shape shape;
-    Point6 point;
+    State6 point;
     Tensor6 strain;
   };
   const std::array found{Found{ES,
@@ -257,8 +257,8 @@ TEST(VumatUpdate, ATrialThatSeriesTakeForElasticIsReturned) {
     const auto m = material(shape);
     const auto after = simsand::update(m, point, strain);
     EXPECT_GE(int(after.status), int(Status::plastic));
-    EXPECT_GT(after.point.plastic_strain, point.plastic_strain);
-    EXPECT_LE(yield_of(m, after.point), 1e-9 * mean(after.point.stress));
+    EXPECT_GT(after.state.plastic_strain, point.plastic_strain);
+    EXPECT_LE(yield_of(m, after.state), 1e-9 * mean(after.state.stress));
   }
 }
 
@@ -279,7 +279,7 @@ template <class Real> void admissible(int count, Real yield_tolerance) {
     const auto s = random_deviator(random), d = random_deviator(random);
     const double q = (i % 11 == 0 ? 3 : 1) * p * uniform(random), length = power(-8, -1);
     const double volume = i % 5 == 0 ? 0 : length * (2 * uniform(random) - 1);
-    simsand::Point<Real, 6> old;
+    simsand::SoilState<Real, 6> old;
     T strain;
     for (int c = 0; c < 6; ++c) {
       old.stress[c] = Real(q * s[c] + (c < 3 ? p : 0));
@@ -290,18 +290,18 @@ template <class Real> void admissible(int count, Real yield_tolerance) {
     old.separation_strain = Real(i % 17 == 0 ? power(-8, -1) : 0);
     const auto after = simsand::update(m, old, strain);
     ASSERT_GE(int(after.status), 0) << i;
-    const Real p1 = simsand::trace(after.point.stress) / 3;
-    const auto s1 = simsand::deviator(after.point.stress);
+    const Real p1 = simsand::trace(after.state.stress) / 3;
+    const auto s1 = simsand::deviator(after.state.stress);
     const Real q1 = simsand::deviatoric_stress(s1);
     ASSERT_TRUE(p1 >= 0 && std::isfinite(p1 + q1 + after.dissipation)) << i;
     ASSERT_TRUE(p1 > 0 || q1 == 0) << i;
     ASSERT_GE(after.dissipation, 0) << i;
-    ASSERT_GE(after.point.plastic_strain, old.plastic_strain) << i;
-    ASSERT_TRUE(after.point.void_ratio >= Real(0.01) && after.point.void_ratio < 4) << i;
-    ASSERT_EQ(after.point.separation_strain > 0, p1 == 0) << i;
-    const auto M = simsand::slopes(m, after.point.void_ratio, simsand::pressure_of_mean_stress(m, p1),
+    ASSERT_GE(after.state.plastic_strain, old.plastic_strain) << i;
+    ASSERT_TRUE(after.state.void_ratio >= Real(0.01) && after.state.void_ratio < 4) << i;
+    ASSERT_EQ(after.state.separation_strain > 0, p1 == 0) << i;
+    const auto M = simsand::slopes(m, after.state.void_ratio, simsand::pressure_of_mean_stress(m, p1),
                                    simsand::sin_3theta(s1, q1));
-    const Real share = simsand::mobilised(m, after.point.plastic_strain);
+    const Real share = simsand::mobilised(m, after.state.plastic_strain);
     ASSERT_LE(simsand::yield_function(q1, p1, M.peak, share), yield_tolerance * p1) << i;
   }
 }

@@ -63,7 +63,7 @@ TEST(Reference, TheProductConvergesToIt) {
     ASSERT_TRUE(exact.found);
     const auto in_substeps = [&](int count) {
       Point at = start;
-      for (int k = 0; k < count; ++k) at = simsand::update(m, at, simsand::scale(1. / count, strain)).point;
+      for (int k = 0; k < count; ++k) at = simsand::update(m, at, simsand::scale(1. / count, strain)).state;
       return at;
     };
     const Point coarse = in_substeps(4000), fine = in_substeps(16000);
@@ -174,7 +174,7 @@ TEST(Integrators, PartWhereTheProductParts) {
   const auto m = sand(0);
   const Point start = yielding(m, 1e3, 0.7, Tensor{{2, -1, -1}});
   const auto opening = simsand::add_mean(Tensor{{1e-4, -1e-4}}, -0.01 / 3);
-  const double gap = simsand::update(m, start, opening).point.separation_strain;
+  const double gap = simsand::update(m, start, opening).state.separation_strain;
   for (auto* update : {explicit_euler, corrected_euler, backward_euler, cutting_plane}) {
     const auto answer = update(m, start, opening);
     EXPECT_TRUE(answer.converged);

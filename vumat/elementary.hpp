@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// exp and log of lanes. They rely on sums being rounded as written, as they are unless -ffast-math is given.
+// exp and log of lanes. Their sums must be rounded in the order they are written in, so -ffast-math is not allowed.
 #pragma once
 #include "vumat/lanes.hpp"
 
@@ -41,47 +41,41 @@ template <class T> struct Series {
 template <class T> inline constexpr Series<T> series{};
 
 /// sum c[k] x^k: even and odd powers apart, two short chains in place of one long.
-template <int terms, class T, int W> Lanes<T, W> polynomial(const T (&c)[terms], const Lanes<T, W>& x) {
-  const Lanes<T, W> square = x * x;
-  Lanes<T, W> even = c[(terms - 1) / 2 * 2], odd = c[terms / 2 * 2 - 1];
+template <int terms, class T> Lanes<T> polynomial(const T (&c)[terms], const Lanes<T>& x) {
+  const Lanes<T> square = x * x;
+  Lanes<T> even = c[(terms - 1) / 2 * 2], odd = c[terms / 2 * 2 - 1];
   for (int k = (terms - 1) / 2 * 2 - 2; k >= 0; k -= 2) even = even * square + c[k];
   for (int k = terms / 2 * 2 - 3; k >= 1; k -= 2) odd = odd * square + c[k];
   return even + odd * x;
 }
 
-/// exp, x held within +-708 (float: +-87): x = k ln 2 + r, |r| <= ln 2 / 2. Relative error below 5e-16 (4e-7).
-template <class T, int W> Lanes<T, W> exp(const Lanes<T, W>& exponent) {
+/// exp, x held within +-708 (float: +-87): x = k ln 2 + r, |r| <= ln 2 / 2. Relative error below 5e-16 (float: 4e-7).
+template <class T> Lanes<T> exp(const Lanes<T>& exponent) {
   using F = Format<T>;
-  using L = Lanes<T, W>;
-  const L x = min(max(exponent, L(-F::largest_exponent)), L(F::largest_exponent));
+  using L = Lanes<T>;
+  const L x = within(exponent, -F::largest_exponent, F::largest_exponent);
   const L shifted = x * T(1.4426950408889634) + F::round, k = shifted - F::round;
   const L r = (x - k * F::ln2_high) - k * F::ln2_low;
-  const L power = L::map([&](int i) {
-    const auto bits = bit_cast<typename L::Integers>(shifted.v[i]);
-    return bit_cast<typename L::Vector>((bits << F::fraction_bits) + F::one);
-  });
+  const auto bits = bit_cast<typename Register<T>::Integers>(shifted.v);
+  const L power = L::of(bit_cast<typename L::Vector>((bits << F::fraction_bits) + F::one));
   return polynomial(series<T>.of_exp, r) * power;
 }
 
 /// ln of a positive normal number: x = 2^k m, m within sqrt 2 of 1, ln m = 2 atanh((m - 1) / (m + 1)).
 /// Relative error below 5e-16 (float: 4e-7).
-template <class T, int W> Lanes<T, W> log(const Lanes<T, W>& x) {
+template <class T> Lanes<T> log(const Lanes<T>& x) {
   using F = Format<T>;
-  using L = Lanes<T, W>;
+  using L = Lanes<T>;
   using Vector = typename L::Vector;
-  using Integers = typename L::Integers;
-  const auto exponent = [&](int i) {
-    return (bit_cast<Integers>(x.v[i]) - F::root_half) >> F::fraction_bits;
-  };
+  using Integers = typename Register<T>::Integers;
+  const Integers bits = bit_cast<Integers>(x.v), exponent = (bits - F::root_half) >> F::fraction_bits;
   const Integers round_bits = bit_cast<Integers>(F::round - Vector{});
-  const L k = L::map([&](int i) { return bit_cast<Vector>(exponent(i) + round_bits) - F::round; });
-  const L f = L::map([&](int i) {
-    return bit_cast<Vector>(bit_cast<Integers>(x.v[i]) - (exponent(i) << F::fraction_bits)) - T(1);
-  });
+  const L k = L::of(bit_cast<Vector>(exponent + round_bits) - F::round);
+  const L f = L::of(bit_cast<Vector>(bits - (exponent << F::fraction_bits)) - T(1));
   const L s = f / (f + T(2)), z = s * s, half_square = f * f * T(0.5);
-  const L rest = T(2) * z * polynomial(series<T>.of_log, z);
-  // 2 atanh s = f - f^2/2 + s (f^2/2 + rest): f is exact, so small logarithms keep their digits.
-  return k * F::ln2_high - ((half_square - (s * (half_square + rest) + k * F::ln2_low)) - f);
+  const L tail = T(2) * z * polynomial(series<T>.of_log, z);
+  // 2 atanh s = f - f^2/2 + s (f^2/2 + tail): f is exact, so small logarithms keep their digits.
+  return k * F::ln2_high - ((half_square - (s * (half_square + tail) + k * F::ln2_low)) - f);
 }
 
 } // namespace simsand
