@@ -106,8 +106,6 @@ inline Medium medium_of(const Scene& scene) {
   return {.reference_density = scene.bulk_density,
           .gravity = scene.gravity,
           .earth_pressure_ratio = scene.earth_pressure_ratio,
-          .spacing = scene.spacing,
-          .smoothing_length = n.smoothing_length * scene.spacing,
           .viscosity = n.viscosity,
           .flow_viscosity = n.flow_viscosity,
           .stress_diffusion = n.stress_diffusion};

@@ -45,9 +45,4 @@ inline void find_gradient(const Particles<Geometry>& p, const Kernel<D>& kernel,
   correct_gradient(sums, gradient);
 }
 
-/// Velocity gradient of all particles.
-template <class Geometry>
-void update_gradient(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
-                     const NeighbourLists& lists, const Records<Geometry>& records);
-
 } // namespace host

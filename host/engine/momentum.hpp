@@ -20,9 +20,4 @@ ClusterForces<Geometry> forces_on(const Particles<Geometry>& particles,
                                   const Kernel<Geometry::dimension>& kernel, const NeighbourLists& lists,
                                   const Records<Geometry>& records, const Medium& medium, int c);
 
-/// The same of all particles, kept.
-template <class Geometry>
-void update_acceleration(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
-                         const NeighbourLists& lists, const Records<Geometry>& records, const Scene& scene);
-
 } // namespace host

@@ -2,6 +2,7 @@
 #include "host/engine/stress.hpp"
 #include "host/engine/material_calls.hpp"
 #include "host/material/corotational.hpp"
+#include "host/scheme/damping.hpp"
 #include "host/scheme/rotation.hpp"
 
 namespace host {
@@ -95,30 +96,9 @@ void advance_stress(Particles<Geometry>& p, const Material& material, const Incr
 }
 
 template <class Geometry>
-void update_stress(Particles<Geometry>& p, const Material& material, const Increment& increment,
-                   StressBlocks& blocks) {
-  Failure failure;
-  for_each_block(p, material, blocks, [&](int first, VumatBlock& b) {
-    BlockGradient<Geometry> gradient{};
-    for (std::size_t e = 0; e < p.velocity_gradient.size(); ++e)
-      std::copy_n(&p.velocity_gradient[e][first], b.points, gradient.component[e]);
-    for (int c = 0; c < Geometry::stress_components; ++c)
-      for (int i = first; i < first + b.points; ++i)
-        p.stress[c][i] += p.stress_diffusion[c][i] * increment.dt;
-    advance_stress(p, material, increment, blocks, gradient, first, b, failure);
-  });
-  if (failure.bad) report_failure(p, material, failure, blocks.failure_state);
-}
-
-/// Diffusivity of stress, m2/s: delta h2 |grad v|, so that noise is smoothed as it arises, by strain, and a
-/// deposit at rest keeps its stress; at most 0.1 h c, where it would limit the step.
-static Lane stress_diffusivity(double delta, double h, const Lane& wave_speed, const Lane& gradient_norm) {
-  return smaller(delta * h * h * gradient_norm, 0.1 * h * wave_speed);
-}
-
-template <class Geometry>
-void show_stress_of(Particles<Geometry>& p, int first, int used, const ClusterGradient<Geometry>& gradient,
-                    const Numerics& numerics, double h, Records<Geometry>& records) {
+void write_stress_records(Particles<Geometry>& p, int first, int used,
+                          const ClusterGradient<Geometry>& gradient, const Medium& medium, double h,
+                          Records<Geometry>& records) {
   constexpr int D = Geometry::dimension, rates = D * (D + 1) / 2;
   Lane square{}, rate[rates];
   for (const Lane& g : gradient) square += g * g;
@@ -127,8 +107,8 @@ void show_stress_of(Particles<Geometry>& p, int first, int used, const ClusterGr
     rate[c] = a == b ? gradient[a * D + a] : gradient[a * D + b] + gradient[b * D + a];
   }
   const Lane norm = square_root(square), wave_speed = load(&p.wave_speed[first]);
-  const Lane damping = damping_speed(numerics, h, wave_speed, norm);
-  store(&p.diffusivity[first], stress_diffusivity(numerics.stress_diffusion, h, wave_speed, norm));
+  const Lane damping = damping_speed(medium, h, wave_speed, norm);
+  store(&p.diffusivity[first], stress_diffusivity(medium, h, wave_speed, norm));
   for (int l = 0; l < used; ++l) {
     auto& record = records.stress[first + l];
     for (int c = 0; c < Geometry::stress_components; ++c) record.stress[c] = p.stress[c][first + l];
@@ -138,37 +118,22 @@ void show_stress_of(Particles<Geometry>& p, int first, int used, const ClusterGr
   }
 }
 
-template <class Geometry>
-void show_stress(Particles<Geometry>& p, const Scene& scene, double h, Records<Geometry>& records) {
-#pragma omp parallel for schedule(static)
-  for (int first = 0; first < p.count; first += lanes) {
-    ClusterGradient<Geometry> gradient;
-    for (std::size_t e = 0; e < gradient.size(); ++e) gradient[e] = load(&p.velocity_gradient[e][first]);
-    show_stress_of(p, first, std::min(lanes, p.count - first), gradient, scene.numerics, h, records);
-  }
-}
-
 template StressBlocks make_stress_blocks(const Material&, const Particles<PlaneStrain>&, double);
 template void advance_stress(Particles<PlaneStrain>&, const Material&, const Increment&, const StressBlocks&,
                              const BlockGradient<PlaneStrain>&, int, VumatBlock&, Failure&);
-template void update_stress(Particles<PlaneStrain>&, const Material&, const Increment&, StressBlocks&);
-template void show_stress_of(Particles<PlaneStrain>&, int, int, const ClusterGradient<PlaneStrain>&,
-                             const Numerics&, double, Records<PlaneStrain>&);
-template void show_stress(Particles<PlaneStrain>&, const Scene&, double, Records<PlaneStrain>&);
+template void write_stress_records(Particles<PlaneStrain>&, int, int, const ClusterGradient<PlaneStrain>&,
+                                   const Medium&, double, Records<PlaneStrain>&);
 template StressBlocks make_stress_blocks(const Material&, const Particles<Axisymmetric>&, double);
 template void advance_stress(Particles<Axisymmetric>&, const Material&, const Increment&, const StressBlocks&,
                              const BlockGradient<Axisymmetric>&, int, VumatBlock&, Failure&);
-template void update_stress(Particles<Axisymmetric>&, const Material&, const Increment&, StressBlocks&);
-template void show_stress_of(Particles<Axisymmetric>&, int, int, const ClusterGradient<Axisymmetric>&,
-                             const Numerics&, double, Records<Axisymmetric>&);
-template void show_stress(Particles<Axisymmetric>&, const Scene&, double, Records<Axisymmetric>&);
+template void write_stress_records(Particles<Axisymmetric>&, int, int, const ClusterGradient<Axisymmetric>&,
+                                   const Medium&, double, Records<Axisymmetric>&);
 template StressBlocks make_stress_blocks(const Material&, const Particles<ThreeDimensional>&, double);
 template void advance_stress(Particles<ThreeDimensional>&, const Material&, const Increment&,
                              const StressBlocks&, const BlockGradient<ThreeDimensional>&, int, VumatBlock&,
                              Failure&);
-template void update_stress(Particles<ThreeDimensional>&, const Material&, const Increment&, StressBlocks&);
-template void show_stress_of(Particles<ThreeDimensional>&, int, int, const ClusterGradient<ThreeDimensional>&,
-                             const Numerics&, double, Records<ThreeDimensional>&);
-template void show_stress(Particles<ThreeDimensional>&, const Scene&, double, Records<ThreeDimensional>&);
+template void write_stress_records(Particles<ThreeDimensional>&, int, int,
+                                   const ClusterGradient<ThreeDimensional>&, const Medium&, double,
+                                   Records<ThreeDimensional>&);
 
 } // namespace host

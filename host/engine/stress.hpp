@@ -41,13 +41,6 @@ void advance_stress(Particles<Geometry>& particles, const Material& material, co
                     const StressBlocks& blocks, const BlockGradient<Geometry>& gradient, int first,
                     VumatBlock& block, Failure& failure);
 
-/// The same for all particles, with the gradients and the stress diffusion that they hold. Throws
-/// std::runtime_error with particle, time, stress and strain increment if the material returns a number that is
-/// not finite.
-template <class Geometry>
-void update_stress(Particles<Geometry>& particles, const Material& material, const Increment& increment,
-                   StressBlocks& blocks);
-
 /// Elastic wave speed of each particle, sqrt(constrained modulus / density), m/s: the material's answer
 /// to a small uniaxial compression in a data check with current stress and state, which it does not keep. With
 /// a tolerance and from the second step on, only of the particles whose stress has changed by it since they were
@@ -56,27 +49,13 @@ template <class Geometry>
 void update_wave_speed(Particles<Geometry>& particles, const Material& material, StressBlocks& blocks,
                        long step = 0);
 
-/// Speed of the artificial viscosity, m/s: alpha c + beta h |grad v|, at most c / 2. The second term damps
-/// noise as it arises, by strain; the first, which alone acts in a deposit at rest, is small, for with it
-/// the zero-energy modes of the pair sums would hold slopes up that creep down later.
-template <class Real>
-Real damping_speed(const Numerics& numerics, double h, const Real& wave_speed, const Real& gradient_norm) {
-  return smaller(0.5 * wave_speed,
-                 numerics.viscosity * wave_speed + numerics.flow_viscosity * h * gradient_norm);
-}
-
 /// Velocity gradients of a cluster, 1/s.
 template <class Geometry> using ClusterGradient = std::array<Lane, Geometry::dimension * Geometry::dimension>;
 
-/// Fills `records.stress` and the diffusivity of stress of the `used` particles first, first + 1, ... of a cluster.
+/// Writes `records.stress` and the diffusivity of stress of the `used` particles first, first + 1, ... of a cluster.
 template <class Geometry>
-void show_stress_of(Particles<Geometry>& particles, int first, int used,
-                    const ClusterGradient<Geometry>& gradient, const Numerics& numerics,
-                    double smoothing_length, Records<Geometry>& records);
-
-/// The same for all particles (not of the images).
-template <class Geometry>
-void show_stress(Particles<Geometry>& particles, const Scene& scene, double smoothing_length,
-                 Records<Geometry>& records);
+void write_stress_records(Particles<Geometry>& particles, int first, int used,
+                          const ClusterGradient<Geometry>& gradient, const Medium& medium,
+                          double smoothing_length, Records<Geometry>& records);
 
 } // namespace host
