@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is to be simulated, in SI units: everything a run needs and nothing it computes.
 #pragma once
+#include "host/bodies/column.hpp"
 #include "host/material/block.hpp"
 #include "host/scheme/kernel.hpp"
 #include "host/scheme/medium.hpp"
@@ -27,20 +28,6 @@ inline double fraction(Sector sector) {
   return 1.0 / (1 << symmetry_planes(sector));
 }
 
-/// A column of radius (plane strain: half width) `radius` that stands on the floor at height 0,
-/// symmetric about the axis at coordinate 0.
-struct Column {
-  double radius = 0;     ///< m
-  double height = 0;     ///< m
-  bool symmetric = true; ///< plane strain: the half x >= 0 is simulated; false: all of it
-  double depth =
-      0; ///< m, half width along y of a cuboid in three dimensions, `radius` along x; 0: a cylinder
-  std::array<double, 2> center{}; ///< m, horizontal place of the middle of its base
-  double base = 0;                ///< m, height of the middle of its base
-  double tilt = 0;                ///< degrees, turned about that point from x towards z
-  bool placed() const { return center[0] != 0 || center[1] != 0 || base != 0 || tilt != 0; }
-};
-
 struct Floor {
   bool present = true;
   bool no_slip = false;
@@ -49,10 +36,11 @@ struct Floor {
 
 enum class GateMotion { fixed, lift, remove };
 
-/// Rigid, frictionless retaining wall at coordinate `Column::radius`; in three dimensions a cylinder.
+/// Rigid, frictionless retaining wall around the sand: a cylinder, in plane strain a plane.
 struct Gate {
   GateMotion motion = GateMotion::lift;
-  double speed = 0; ///< m/s, upwards
+  double speed = 0;  ///< m/s, upwards
+  double radius = 0; ///< m, distance from the axis
   /// Height of its lower edge, m. A gate that has not moved reaches below the floor.
   double lower_edge(double time) const {
     constexpr double far = std::numeric_limits<double>::infinity();
@@ -75,10 +63,11 @@ struct Numerics {
 
 struct Scene {
   GeometryKind geometry = GeometryKind::axisymmetric;
-  Sector sector = Sector::full; ///< of a three-dimensional column
+  Sector sector = Sector::full; ///< what of three dimensions is simulated
+  bool symmetric = true;        ///< in the plane: x = 0 is a plane of symmetry and x >= 0 is simulated
   double spacing = 0;           ///< m, initial distance of particles
   double gravity = 0;           ///< m/s2
-  Column column;
+  Column column;                ///< the sand at the start
   Material material;
   std::vector<std::string> state_names; ///< one for each state variable
   std::vector<double> initial_state;    ///< STATEV of every particle at the start
@@ -99,6 +88,12 @@ struct Scene {
   std::string output_folder;
   std::string resolved; ///< the scene file with every key written out
 };
+
+/// Number of planes of symmetry; the axis of axisymmetry is one.
+inline int planes_of_symmetry(const Scene& scene) {
+  if (scene.geometry == GeometryKind::three_dimensional) return symmetry_planes(scene.sector);
+  return scene.symmetric ? 1 : 0;
+}
 
 /// What the terms of the scheme need of a scene.
 inline Medium medium_of(const Scene& scene) {

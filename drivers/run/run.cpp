@@ -244,10 +244,11 @@ template <class Geometry> Summary run(const host::Scene& scene, const RunOptions
 
 Summary run_scene(const host::Scene& scene, const RunOptions& options) {
   const auto folder = std::filesystem::path(scene.output_folder).lexically_normal();
-  host::job() = {(folder.has_filename() ? folder : folder.parent_path()).filename().string(),
-                 scene.output_folder};
+  auto named = scene;
+  named.material.job = {(folder.has_filename() ? folder : folder.parent_path()).filename().string(),
+                        scene.output_folder};
   return host::with_geometry(scene.geometry,
-                             [&](auto geometry) { return run<decltype(geometry)>(scene, options); });
+                             [&](auto geometry) { return run<decltype(geometry)>(named, options); });
 }
 
 } // namespace drivers

@@ -99,7 +99,7 @@ void for_each_block(const Particles<Geometry>& p, const Material& material, Stre
 template <class Geometry>
 [[noreturn]] void report_failure(const Particles<Geometry>& p, const Material& material,
                                  const Failure& failure, int failure_state) {
-  const std::filesystem::path folder = job().folder;
+  const std::filesystem::path folder = material.job.folder;
   throw std::runtime_error(
       evidence_of(material, failure_state, *failure.bad, fmt::format("particle {}", p.id[failure.particle]),
                   Geometry::dimension, folder.empty() ? folder : folder / "failed_point.toml"));

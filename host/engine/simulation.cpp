@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/engine/simulation.hpp"
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/material/corotational.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/walls/wall_contact.hpp"
@@ -163,7 +163,7 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   Simulation<Geometry> s{.scene = scene,
                          .kernel = Kernel<Geometry::dimension>(
                              scene.numerics.smoothing_length * scene.spacing, scene.numerics.kernel)};
-  s.particles = make_column<Geometry>(scene);
+  s.particles = initial_particles<Geometry>(scene);
   s.mirrors = scene_mirrors(scene);
   s.walls = all_walls(scene);
   s.loads.resize(s.walls.size());

@@ -61,7 +61,7 @@ void invoke_guarded(const Material& material, const Increment& increment, VumatB
   static std::mutex one_at_a_time;
   std::unique_lock lock(one_at_a_time, std::defer_lock);
   if (material.serial) lock.lock();
-  const RunningCall running(material.name, increment.total_time);
+  const RunningCall running(material.name, material.job, increment.total_time);
   try {
     invoke(material, increment, b);
   } catch (const VumatExit& exit) {

@@ -3,6 +3,7 @@
 // the call. The SPH stress stage fills blocks of 64 particles, the element driver 1 to 128 points.
 #pragma once
 #include "host/material/guard_words.hpp"
+#include "host/material/job.hpp"
 #include "host/material/kinematics.hpp"
 #include "host/material/library.hpp"
 #include "vumat/abi.hpp"
@@ -27,6 +28,7 @@ struct Material {
   Frame frame = Frame::jaumann;
   bool serial = false;           ///< not thread safe: one call at a time, blocks in order
   bool may_write_inputs = false; ///< its inputs are restored after each call instead of refused
+  Job job{};                     ///< the run it is called in
 };
 
 /// Times of one increment, s; `step_time` and `total_time` at its end.

@@ -17,9 +17,8 @@ Scene scene_with(double friction, GateMotion gate = GateMotion::fixed) {
   Scene scene;
   scene.spacing = spacing;
   scene.gravity = g;
-  scene.column = {0.05, 0.05};
   scene.floor.friction = friction;
-  scene.gate = {gate, 1.6};
+  scene.gate = {gate, 1.6, 0.05};
   return scene;
 }
 

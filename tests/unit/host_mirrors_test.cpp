@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images behind axis, floor and gate: where they stand, what they carry, and that a column in equilibrium
 // does not notice that it ends there.
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/engine/simulation.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/walls/mirrors.hpp"
@@ -22,7 +22,7 @@ Scene column_scene(GateMotion gate) {
   scene.column = {radius, height};
   scene.bulk_density = 1500;
   scene.earth_pressure_ratio = 0.5;
-  scene.gate = {gate, 1.6};
+  scene.gate = {gate, 1.6, radius};
   return scene;
 }
 
@@ -42,7 +42,7 @@ template <class Geometry> Stages<Geometry> find_forces(Simulation<Geometry>& s) 
 template <class Geometry, class Stress> Simulation<Geometry> standing(const Scene& scene, Stress&& stress) {
   Simulation<Geometry> s{.scene = scene,
                          .kernel = Kernel<2>(scene.numerics.smoothing_length * scene.spacing),
-                         .particles = make_column<Geometry>(scene),
+                         .particles = initial_particles<Geometry>(scene),
                          .mirrors = scene_mirrors(scene)};
   auto& p = s.particles;
   for (int i = 0; i < p.count; ++i)
@@ -263,9 +263,10 @@ Simulation<ThreeDimensional> flowing(Sector sector) {
   scene.sector = sector;
   scene.gravity = 9.81;
   scene.column = {8 * spacing, 9 * spacing};
+  scene.gate.radius = scene.column.radius;
   Simulation<ThreeDimensional> s{.scene = scene,
                                  .kernel = Kernel<3>(1.5 * spacing),
-                                 .particles = make_column<ThreeDimensional>(scene),
+                                 .particles = initial_particles<ThreeDimensional>(scene),
                                  .mirrors = scene_mirrors(scene)};
   move_gate(s.mirrors, scene, 3.2 * spacing / scene.gate.speed);
   auto& p = s.particles;

@@ -25,7 +25,7 @@ Simulation<Geometry> scattered(int count, double width, int strays, std::uint64_
   Scene scene;
   scene.geometry = kind<Geometry>;
   scene.sector = Sector::quarter;
-  scene.column = {side, side};
+  scene.gate.radius = side;
   scene.gate.motion = GateMotion::fixed;
   auto s = empty_cloud<Geometry>(count, scene, 2);
   s.mirrors = scene_mirrors(scene);

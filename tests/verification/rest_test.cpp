@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motions whose answer is known: rest, free fall, rigid rotation, extension to separation and back.
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/engine/simulation.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/scheme/rotation.hpp"
@@ -33,7 +33,7 @@ RestError stay_at_rest(const tests::ColumnCase& c, const std::string& name, doub
   RestError error;
   error.late_energy = late / early;
   const auto& p = s.particles;
-  const auto start = host::make_column<Geometry>(s.scene); // in the order of the ids
+  const auto start = host::initial_particles<Geometry>(s.scene); // in the order of the ids
   for (int i = 0; i < p.count; ++i) {
     double square = 0;
     for (int a = 0; a < D; ++a) square += std::pow(p.position[a][i] - start.position[a][p.id[i]], 2);
@@ -80,7 +80,7 @@ TEST(FreeFall, FollowsTheParabola) {
   auto s = host::start_simulation<Axisymmetric>(
       tests::column_scene({.spacing = 0.005, .gate = "motion = \"remove\""}, "fall"));
   auto& p = s.particles;
-  const auto column = host::make_column<Axisymmetric>(s.scene); // in the order of the ids
+  const auto column = host::initial_particles<Axisymmetric>(s.scene); // in the order of the ids
   for (int i = 0; i < p.count; ++i) p.position[1][i] += 0.1;
   for (auto& component : p.stress) component.assign(component.size(), 0.0);
   while (s.time < 0.1) host::step(s);
@@ -110,7 +110,7 @@ template <class Geometry> struct PrescribedBlock {
             tests::column_scene({.geometry = D == 2 ? Geometry::name : "three_dimensional\"\nsector = \"full",
                                  .spacing = D == 2 ? 0.005 : 0.01},
                                 name)),
-        particles(host::make_column<Geometry>(scene)), kernel(1.5 * scene.spacing),
+        particles(host::initial_particles<Geometry>(scene)), kernel(1.5 * scene.spacing),
         blocks(host::make_stress_blocks(scene.material, particles, scene.spacing)), stages(particles) {
     for (std::size_t c = 0; c < stress.size(); ++c) particles.stress[c].assign(particles.padded(), stress[c]);
     records.motion.resize(particles.padded());
