@@ -21,20 +21,20 @@ void find_gradients(const Particles<Geometry>& p, const Kernel<Geometry::dimensi
   }
 }
 
-/// Largest component of the gradients, 1/s; what is no number is left out.
+/// Writes the stress records of a block. Returns the largest component of the gradients, 1/s, of those that are numbers.
 template <class Geometry>
 double write_block_records(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first,
                            int count, const Medium& medium, double h, Records<Geometry>& records) {
   ClusterGradient<Geometry> slope;
-  Lane steepest{};
+  Lane most{};
   for (int k = 0; k < count; k += lanes) {
     for (std::size_t e = 0; e < slope.size(); ++e) {
       slope[e] = load(&gradient.component[e][k]);
-      steepest = larger(larger(slope[e], -slope[e]), steepest);
+      most = larger(larger(slope[e], -slope[e]), most);
     }
     write_stress_records(p, first + k, std::min(lanes, count - k), slope, medium, h, records);
   }
-  return largest(steepest);
+  return largest(most);
 }
 
 } // namespace
@@ -44,17 +44,17 @@ double deform(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
               const Medium& medium, const Material& material, const Increment& increment,
               StressBlocks& blocks, Records<Geometry>& records) {
   const double start = increment.total_time - increment.dt;
-  Failure failure;
+  FirstFailure failure;
   for_each_block(p, material, blocks, [&](int first, VumatBlock& b) {
     BlockGradient<Geometry> gradient;
     find_gradients(p, kernel, lists, records, first, b.points, gradient);
     check_strain(p, gradient, first, b.points, start, increment.dt);
     advance_stress(p, material, increment, blocks, gradient, first, b, failure);
-    blocks.steepest[first / StressBlocks::points] =
+    blocks.largest_gradient[first / StressBlocks::points] =
         write_block_records(p, gradient, first, b.points, medium, kernel.h, records);
   });
   if (failure.bad) report_failure(p, material, failure, blocks.failure_state);
-  return std::ranges::max(blocks.steepest);
+  return std::ranges::max(blocks.largest_gradient);
 }
 
 template <class Geometry>

@@ -169,9 +169,9 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   s.loads.resize(s.walls.size());
   if (!scene.walls.empty()) find_surfaces(s.walls, scene.geometry, 0, 0, s.surfaces);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
-  s.blocks.loosest = 0.5 * scene.bulk_density;
+  s.blocks.dispersed_density = 0.5 * scene.bulk_density;
   s.blocks.failure_state = scene.failure_state;
-  s.blocks.tolerance = scene.numerics.wave_speed_tolerance;
+  s.blocks.wave_speed_tolerance = scene.numerics.wave_speed_tolerance;
   if (scene.material.frame == Frame::green_naghdi) carry_deformation(s.particles);
   // The data check comes first, with initial stress and state in place; its answer is thrown away.
   update_wave_speed(s.particles, scene.material, s.blocks);
@@ -209,7 +209,7 @@ template <class Geometry> Memory memory_of(const Simulation<Geometry>& s) {
   s.particles.each_persistent(count);
   count(s.particles.diffusivity);
   memory.data += bytes(s.particles.id) + bytes(s.records.motion) + bytes(s.records.stress) +
-                 bytes(s.images.list) + bytes(s.blocks.due) + bytes(s.motions);
+                 bytes(s.images.list) + bytes(s.blocks.outdated) + bytes(s.motions);
   for (const NeighbourLists* lists : {&s.outer_lists, &s.lists})
     memory.lists += bytes(lists->entries) + bytes(lists->interior) + bytes(lists->total);
   return memory;

@@ -4,6 +4,7 @@
 #include "host/material/corotational.hpp"
 #include "host/scheme/damping.hpp"
 #include "host/scheme/rotation.hpp"
+#include "host/scheme/strain.hpp"
 
 namespace host {
 
@@ -15,48 +16,48 @@ StressBlocks make_stress_blocks(const Material& material, const Particles<Geomet
                      VumatBlock(material, StressBlocks::points, Geometry::shear_components));
   if (const int left = p.count % StressBlocks::points)
     blocks.tail.emplace_back(material, left, Geometry::shear_components);
-  blocks.steepest.assign((p.count + StressBlocks::points - 1) / StressBlocks::points, 0);
+  blocks.largest_gradient.assign((p.count + StressBlocks::points - 1) / StressBlocks::points, 0);
   return blocks;
 }
 
 namespace {
 
-/// Particles that bear next to nothing, at less than the density `loosest`: thrown off. Nothing there holds a volume
-/// to be strained; its density would drift with what passes by, down to a hundredth of the sand's, and push walls
-/// and neighbours away as if the particle filled all of it.
+/// Particles under no load and of less than the density `limit`, kg/m3: grains that have left the sand. Their few
+/// neighbours pass by at other speeds, and the gradient of these would make their volume drift, up to a hundred times
+/// that of the sand, with which they would push walls and neighbours away.
 template <std::size_t S>
-auto is_thrown_off(const Lane& density, const Lane& wave_speed, const std::array<Lane, S>& stress,
-                   double loosest) {
-  constexpr double nothing = 1e-3; // of the constrained modulus
+auto is_dispersed(const Lane& density, const Lane& wave_speed, const std::array<Lane, S>& stress,
+                  double limit) {
+  constexpr double no_load = 1e-3; // of the constrained modulus
   const Lane pressure = -(stress[0] + stress[1] + stress[2]) / 3;
-  return density < loosest && pressure >= 0.0 && pressure <= nothing * density * wave_speed * wave_speed;
+  return density < limit && pressure >= 0.0 && pressure <= no_load * density * wave_speed * wave_speed;
 }
 
-/// Strain increments, turned old stress and densities of particles first, first + 1, ...; density is advanced. What is
-/// thrown off is not strained to a larger volume.
+/// Sets strain increments, rotated old stress and densities of particles first, first + 1, ... and advances their
+/// density. Dispersed particles do not expand.
 template <class Geometry>
 void strain_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, double dt,
-                  const StressBlocks& blocks, bool turning, VumatBlock& b) {
+                  const StressBlocks& blocks, bool rotates, VumatBlock& b) {
   constexpr int D = Geometry::dimension, S = Geometry::stress_components;
-  constexpr int directions = Geometry::hoop ? 3 : D; // that strain
+  constexpr int directions = Geometry::hoop ? 3 : D; // with strain
   for (int k = 0; k < b.points; k += lanes) {
     const int i = first + k, used = std::min(lanes, b.points - k);
     std::array<Lane, D * D> slope;
     std::array<Lane, S> stress;
     for (int e = 0; e < D * D; ++e) slope[e] = load(&gradient.component[e][k]);
     for (int c = 0; c < S; ++c) stress[c] = load(&p.stress[c][i]);
-    const auto step =
-        step_strain<Geometry>(slope, load(&p.position[0][i]), load(&p.velocity[0][i]), dt, blocks.spacing);
-    if (turning) stress = turned(stress, step.angle);
+    const auto step = strain_increment<Geometry>(slope, load(&p.position[0][i]), load(&p.velocity[0][i]), dt,
+                                                 blocks.spacing);
+    if (rotates) stress = rotated(stress, step.angle);
     const Lane density = load(&p.density[i]);
     Lane volumetric = step.strain[0] + step.strain[1] + step.strain[2];
-    const Lane spread = is_thrown_off(density, load(&p.wave_speed[i]), stress, blocks.loosest)
-                            ? larger(volumetric, Lane{})
-                            : Lane{};
-    volumetric -= spread;
+    const Lane expansion = is_dispersed(density, load(&p.wave_speed[i]), stress, blocks.dispersed_density)
+                               ? larger(volumetric, Lane{})
+                               : Lane{};
+    volumetric -= expansion;
     for (int c = 0; c < S; ++c) {
       store(&b.strain_increment[c * b.points + k],
-            c < directions ? step.strain[c] - spread / directions : step.strain[c], used);
+            c < directions ? step.strain[c] - expansion / directions : step.strain[c], used);
       store(&b.stress_old[c * b.points + k], stress[c], used);
     }
     store(&b.density[k], density * (1 - 0.25 * volumetric) / (1 + 0.25 * volumetric), used); // mid-increment
@@ -65,8 +66,8 @@ void strain_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradien
   }
 }
 
-/// Stress, state and energies after a call.
-template <class Geometry> void keep_answer(const VumatBlock& b, int first, Particles<Geometry>& p) {
+/// Takes over stress, state and energies after a call.
+template <class Geometry> void take_results(const VumatBlock& b, int first, Particles<Geometry>& p) {
   const int n = b.points;
   for (int c = 0; c < Geometry::stress_components; ++c)
     std::copy_n(&b.stress_new[c * n], n, &p.stress[c][first]);
@@ -80,7 +81,7 @@ template <class Geometry> void keep_answer(const VumatBlock& b, int first, Parti
 template <class Geometry>
 void advance_stress(Particles<Geometry>& p, const Material& material, const Increment& increment,
                     const StressBlocks& blocks, const BlockGradient<Geometry>& gradient, int first,
-                    VumatBlock& b, Failure& failure) {
+                    VumatBlock& b, FirstFailure& failure) {
   const bool corotational = material.frame == Frame::green_naghdi;
   pack(p, first, blocks.spacing, b);
   strain_block(p, gradient, first, increment.dt, blocks, !corotational, b);
@@ -92,7 +93,7 @@ void advance_stress(Particles<Geometry>& p, const Material& material, const Incr
     leave_corotational(b);
     keep_deformation(b, first, p);
   }
-  keep_answer(b, first, p);
+  take_results(b, first, p);
 }
 
 template <class Geometry>
@@ -120,18 +121,18 @@ void write_stress_records(Particles<Geometry>& p, int first, int used,
 
 template StressBlocks make_stress_blocks(const Material&, const Particles<PlaneStrain>&, double);
 template void advance_stress(Particles<PlaneStrain>&, const Material&, const Increment&, const StressBlocks&,
-                             const BlockGradient<PlaneStrain>&, int, VumatBlock&, Failure&);
+                             const BlockGradient<PlaneStrain>&, int, VumatBlock&, FirstFailure&);
 template void write_stress_records(Particles<PlaneStrain>&, int, int, const ClusterGradient<PlaneStrain>&,
                                    const Medium&, double, Records<PlaneStrain>&);
 template StressBlocks make_stress_blocks(const Material&, const Particles<Axisymmetric>&, double);
 template void advance_stress(Particles<Axisymmetric>&, const Material&, const Increment&, const StressBlocks&,
-                             const BlockGradient<Axisymmetric>&, int, VumatBlock&, Failure&);
+                             const BlockGradient<Axisymmetric>&, int, VumatBlock&, FirstFailure&);
 template void write_stress_records(Particles<Axisymmetric>&, int, int, const ClusterGradient<Axisymmetric>&,
                                    const Medium&, double, Records<Axisymmetric>&);
 template StressBlocks make_stress_blocks(const Material&, const Particles<ThreeDimensional>&, double);
 template void advance_stress(Particles<ThreeDimensional>&, const Material&, const Increment&,
                              const StressBlocks&, const BlockGradient<ThreeDimensional>&, int, VumatBlock&,
-                             Failure&);
+                             FirstFailure&);
 template void write_stress_records(Particles<ThreeDimensional>&, int, int,
                                    const ClusterGradient<ThreeDimensional>&, const Medium&, double,
                                    Records<ThreeDimensional>&);

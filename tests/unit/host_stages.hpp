@@ -46,7 +46,7 @@ template <class Geometry>
 void update_stress(host::Particles<Geometry>& p, const host::Material& material,
                    const host::Increment& increment, host::StressBlocks& blocks,
                    const Stages<Geometry>& stages) {
-  host::Failure failure;
+  host::FirstFailure failure;
   for_each_block(p, material, blocks, [&](int first, host::VumatBlock& b) {
     host::BlockGradient<Geometry> gradient{};
     for (std::size_t e = 0; e < stages.velocity_gradient.size(); ++e)

@@ -139,9 +139,9 @@ TEST(Stress, TurnsWithTheMaterialInThreeDimensions) {
 TEST(Stress, AboutTheThirdAxisBothRotationsAgree) {
   const std::array<double, 4> plane{-900, -1100, -1000, 60};
   for (const double angle : {0.01, 1.3}) {
-    const auto two = turned(plane, std::array{angle});
+    const auto two = rotated(plane, std::array{angle});
     const auto three =
-        turned(std::array{plane[0], plane[1], plane[2], plane[3], 0., 0.}, std::array{0., 0., angle});
+        rotated(std::array{plane[0], plane[1], plane[2], plane[3], 0., 0.}, std::array{0., 0., angle});
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(three[c], two[c], 1e-10);
   }
 }
@@ -254,7 +254,7 @@ TEST(Stress, WhatIsThrownOffIsNotStrainedFurtherApart) {
     p.density.assign(p.padded(), c.density);
     p.wave_speed.assign(p.padded(), 40); // constrained modulus 960 kPa
     auto blocks = make_stress_blocks(elastic(), p, 0.002);
-    blocks.loosest = 750;
+    blocks.dispersed_density = 750;
     const Material shown{{"shows_strain", nullptr, shows_strain}, "SHOWN", {0.0}, 0};
     update_stress(p, shown, {dt, dt, dt}, blocks, strained.stages);
     const double strain = c.kept ? 0 : c.rate * dt;
@@ -276,7 +276,7 @@ TEST(Stress, WhatIsThrownOffInThePlaneIsNotStrainedOutOfIt) {
   strained.set_gradient(3, rate);
   p.density.assign(p.padded(), density);
   auto blocks = make_stress_blocks(elastic(), p, 0.002);
-  blocks.loosest = 750;
+  blocks.dispersed_density = 750;
   const Material shown{{"shows_strain", nullptr, shows_strain}, "SHOWN", {0.0}, 0};
   update_stress(p, shown, {dt, dt, dt}, blocks, strained.stages);
   for (int i = 0; i < p.count; ++i) {
@@ -349,7 +349,7 @@ TEST(Stress, WaveSpeedIsAskedForWhereTheStressHasChanged) {
   p.stress[0].assign(p.padded(), -1000);
   for (int c = 1; c < 6; ++c) p.stress[c].assign(p.padded(), 0);
   auto blocks = make_stress_blocks(material, p, 0.002);
-  blocks.tolerance = 0.1;
+  blocks.wave_speed_tolerance = 0.1;
   update_wave_speed(p, material, blocks);
   const auto first = p.wave_speed;
   const auto expected = [&](int i) { return std::sqrt(-p.stress[0][i] / p.density[i]); };
