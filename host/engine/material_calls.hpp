@@ -79,7 +79,7 @@ void for_each_block(const Particles<Geometry>& p, const Material& material, Stre
     error.guarded(first, [&] {
       try {
         f(first, block);
-      } catch (const UnsoundMotion&) {
+      } catch (const UnstableMotion&) {
         throw;
       } catch (const std::runtime_error& what) {
         throw std::runtime_error(

@@ -27,11 +27,11 @@ PairSide<Geometry, Lane> gather_cluster(const Records<Geometry>& records, int fi
   return side;
 }
 
-/// Adds `count` neighbours.
+/// Adds `count` neighbours and multiplies the sums by the kernel's scale.
 template <bool diffuses, class Geometry, int D>
 void add_pairs(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i, const Records<Geometry>& records,
                const int* neighbour, int count, PairSums<Geometry, Lane>& sums) {
-  constexpr int ahead = 8;
+  constexpr int ahead = 8; // pairs at a time, so that their square roots and divisions overlap
   PairFactors<Lane> factors[ahead];
   for (int first = 0; first < count; first += ahead, neighbour += ahead) {
     const int n = std::min(ahead, count - first);
