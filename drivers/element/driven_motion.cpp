@@ -10,13 +10,13 @@ namespace {
 
 host::Kinematics way_to(const DrivenMotion& motion, const host::Tensor& at_start, double from, double to,
                         const host::Tensor& now) {
-  if (motion.by_velocity) return host::carried_along(now, (to - from) * motion.value);
+  if (motion.by_velocity) return host::motion_by_gradient(now, (to - from) * motion.value);
   const host::Tensor target = at_start + to * (motion.value - at_start);
   if (!(target.determinant() > 0))
     throw std::runtime_error(
         fmt::format("the straight way to the deformation gradient passes through a determinant of {:g}",
                     target.determinant()));
-  return host::led_to(now, target);
+  return host::motion_between(now, target);
 }
 
 } // namespace

@@ -7,7 +7,6 @@
 namespace drivers {
 namespace {
 
-/// Tensor of the six components; weights of a double contraction.
 Eigen::Matrix3d tensor(const Vector6& v) {
   return Eigen::Matrix3d{{v[0], v[3], v[5]}, {v[3], v[1], v[4]}, {v[5], v[4], v[2]}};
 }
@@ -28,18 +27,20 @@ Vector6 components(const Eigen::Matrix3d& t) {
 
 constexpr int shear = 3; // components
 
-void put_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
+/// Sets F, U and spin of point k.
+void set_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
   const int n = b.points;
-  host::put_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
-  host::put_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
-  host::put_general(motion.gradient_old, k, n, shear, b.gradient_old);
-  host::put_general(motion.gradient_new, k, n, shear, b.gradient_new);
+  host::set_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
+  host::set_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
+  host::set_general(motion.gradient_old, k, n, shear, b.gradient_old);
+  host::set_general(motion.gradient_new, k, n, shear, b.gradient_new);
   b.kept_gradient.resize(n);
   b.kept_gradient[k] = motion.gradient_new;
   for (int s = 0; s < shear; ++s) b.spin_increment[s * n + k] = motion.spin[s];
 }
 
-void put(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
+/// Sets strain increment, stress, state, density and energies of point k.
+void set_point(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
   const int n = b.points;
   for (int c = 0; c < 6; ++c) {
     b.strain_increment[c * n + k] = -increment[c];
@@ -53,8 +54,9 @@ void put(const PointState& from, const Vector6& increment, int k, host::VumatBlo
   b.char_length[k] = 1; // m; one element of unit size
 }
 
-PointState taken(const PointState& from, const Vector6& increment, double dt, int k,
-                 const host::VumatBlock& b) {
+/// The state of point k after a call.
+PointState state_after(const PointState& from, const Vector6& increment, double dt, int k,
+                       const host::VumatBlock& b) {
   const int n = b.points;
   PointState to = from;
   for (int c = 0; c < 6; ++c) to.stress[c] = -b.stress_new[c * n + k];
@@ -110,9 +112,9 @@ host::VumatBlock& MaterialCaller::block(int points) {
 
 void MaterialCaller::pack(const PointState& from, const Vector6& increment, int k,
                           host::VumatBlock& b) const {
-  put(from, increment, k, b);
+  set_point(from, increment, k, b);
   if (material.frame == host::Frame::green_naghdi)
-    put_motion(host::strained(from.gradient, -tensor(increment)), k, b);
+    set_motion(host::motion_by_strain(from.gradient, -tensor(increment)), k, b);
 }
 
 void MaterialCaller::call(const host::Increment& increment, std::size_t first, host::VumatBlock& b) {
@@ -142,7 +144,7 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
     const double end = start(first).time + dt;
     call({end, end, dt}, first, b);
     for (int k = 0; k < n; ++k) {
-      answers.push_back(taken(start(first + k), increments[first + k], dt, k, b));
+      answers.push_back(state_after(start(first + k), increments[first + k], dt, k, b));
       if (material.frame == host::Frame::green_naghdi) answers.back().gradient = b.kept_gradient[k];
     }
   }
@@ -150,13 +152,13 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
 }
 
 PointState MaterialCaller::follow(const PointState& from, const host::Kinematics& motion, double dt) {
-  host::VumatBlock b(material, 1, shear); // not one of those that show unity
+  host::VumatBlock b(material, 1, shear); // F and U of the blocks that are kept must stay unity
   const Vector6 increment = -components(motion.strain);
-  put(from, increment, 0, b);
-  put_motion(motion, 0, b);
+  set_point(from, increment, 0, b);
+  set_motion(motion, 0, b);
   const double end = from.time + dt;
   call({end, end, dt}, 0, b);
-  auto to = taken(from, increment, dt, 0, b);
+  auto to = state_after(from, increment, dt, 0, b);
   to.gradient = motion.gradient_new;
   return to;
 }
@@ -168,7 +170,7 @@ Matrix6 MaterialCaller::elastic_stiffness(const PointState& from) {
   call({0, 0, 1}, 0, b);
   Matrix6 stiffness;
   for (int k = 0; k < 6; ++k)
-    stiffness.col(k) = (taken(from, Vector6::Zero(), 0, k, b).stress - from.stress) / probe;
+    stiffness.col(k) = (state_after(from, Vector6::Zero(), 0, k, b).stress - from.stress) / probe;
   return stiffness;
 }
 
