@@ -39,8 +39,8 @@ template <class Geometry> Particles<Geometry> initial_particles(const Scene& sce
   return particles;
 }
 
-template Particles<PlaneStrain> initial_particles(const Scene&);
-template Particles<Axisymmetric> initial_particles(const Scene&);
-template Particles<ThreeDimensional> initial_particles(const Scene&);
+template decltype(initial_particles<PlaneStrain>) initial_particles<PlaneStrain>;
+template decltype(initial_particles<Axisymmetric>) initial_particles<Axisymmetric>;
+template decltype(initial_particles<ThreeDimensional>) initial_particles<ThreeDimensional>;
 
 } // namespace host

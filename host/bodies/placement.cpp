@@ -21,8 +21,8 @@ template <class Geometry> void place(const Column& column, Particles<Geometry>& 
   }
 }
 
-template void place(const Column&, Particles<PlaneStrain>&);
-template void place(const Column&, Particles<Axisymmetric>&);
-template void place(const Column&, Particles<ThreeDimensional>&);
+template decltype(place<PlaneStrain>) place<PlaneStrain>;
+template decltype(place<Axisymmetric>) place<Axisymmetric>;
+template decltype(place<ThreeDimensional>) place<ThreeDimensional>;
 
 } // namespace host

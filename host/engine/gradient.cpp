@@ -9,8 +9,8 @@ template <class Geometry> void show_motion(const Particles<Geometry>& p, Records
   for (int i = 0; i < p.count; ++i) show_motion_of(p, i, records);
 }
 
-template void show_motion(const Particles<PlaneStrain>&, Records<PlaneStrain>&);
-template void show_motion(const Particles<Axisymmetric>&, Records<Axisymmetric>&);
-template void show_motion(const Particles<ThreeDimensional>&, Records<ThreeDimensional>&);
+template decltype(show_motion<PlaneStrain>) show_motion<PlaneStrain>;
+template decltype(show_motion<Axisymmetric>) show_motion<Axisymmetric>;
+template decltype(show_motion<ThreeDimensional>) show_motion<ThreeDimensional>;
 
 } // namespace host

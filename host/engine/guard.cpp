@@ -138,24 +138,20 @@ template <class Geometry> void check_work(const Simulation<Geometry>& s) {
   check("the stress of pairs and walls", pair_work(s.work) - by_walls, largest_pair_gain);
 }
 
-template double given_by_walls(const Simulation<PlaneStrain>&);
-template double given_by_walls(const Simulation<Axisymmetric>&);
-template double given_by_walls(const Simulation<ThreeDimensional>&);
-template double energy_scale(const Simulation<PlaneStrain>&);
-template double energy_scale(const Simulation<Axisymmetric>&);
-template double energy_scale(const Simulation<ThreeDimensional>&);
-template void check_work(const Simulation<PlaneStrain>&);
-template void check_work(const Simulation<Axisymmetric>&);
-template void check_work(const Simulation<ThreeDimensional>&);
-template void check_energy(const Particles<PlaneStrain>&, double, double, double);
-template void check_energy(const Particles<Axisymmetric>&, double, double, double);
-
-template void check_strain(const Particles<PlaneStrain>&, const BlockGradient<PlaneStrain>&, int, int, double,
-                           double);
-template void check_strain(const Particles<Axisymmetric>&, const BlockGradient<Axisymmetric>&, int, int,
-                           double, double);
-template void check_energy(const Particles<ThreeDimensional>&, double, double, double);
-template void check_strain(const Particles<ThreeDimensional>&, const BlockGradient<ThreeDimensional>&, int,
-                           int, double, double);
+template decltype(given_by_walls<PlaneStrain>) given_by_walls<PlaneStrain>;
+template decltype(given_by_walls<Axisymmetric>) given_by_walls<Axisymmetric>;
+template decltype(given_by_walls<ThreeDimensional>) given_by_walls<ThreeDimensional>;
+template decltype(energy_scale<PlaneStrain>) energy_scale<PlaneStrain>;
+template decltype(energy_scale<Axisymmetric>) energy_scale<Axisymmetric>;
+template decltype(energy_scale<ThreeDimensional>) energy_scale<ThreeDimensional>;
+template decltype(check_work<PlaneStrain>) check_work<PlaneStrain>;
+template decltype(check_work<Axisymmetric>) check_work<Axisymmetric>;
+template decltype(check_work<ThreeDimensional>) check_work<ThreeDimensional>;
+template decltype(check_energy<PlaneStrain>) check_energy<PlaneStrain>;
+template decltype(check_energy<Axisymmetric>) check_energy<Axisymmetric>;
+template decltype(check_energy<ThreeDimensional>) check_energy<ThreeDimensional>;
+template decltype(check_strain<PlaneStrain>) check_strain<PlaneStrain>;
+template decltype(check_strain<Axisymmetric>) check_strain<Axisymmetric>;
+template decltype(check_strain<ThreeDimensional>) check_strain<ThreeDimensional>;
 
 } // namespace host

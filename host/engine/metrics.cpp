@@ -224,23 +224,17 @@ Spread spread_of(const Particles<Geometry>& p, std::span<const double> quantity,
   return spread;
 }
 
-template Profiles surface_profiles(const Particles<PlaneStrain>&, const Kernel<2>&, std::span<const double>,
-                                   Sector);
-template Profiles surface_profiles(const Particles<Axisymmetric>&, const Kernel<2>&, std::span<const double>,
-                                   Sector);
-template Profiles surface_profiles(const Particles<ThreeDimensional>&, const Kernel<3>&,
-                                   std::span<const double>, Sector);
-template std::vector<double> outline(const Particles<PlaneStrain>&, const Kernel<2>&, std::span<const double>,
-                                     Sector);
-template std::vector<double> outline(const Particles<Axisymmetric>&, const Kernel<2>&,
-                                     std::span<const double>, Sector);
-template std::vector<double> outline(const Particles<ThreeDimensional>&, const Kernel<3>&,
-                                     std::span<const double>, Sector);
-template double outline_volume<PlaneStrain>(std::span<const double>, std::span<const double>, Sector);
-template double outline_volume<Axisymmetric>(std::span<const double>, std::span<const double>, Sector);
-template double outline_volume<ThreeDimensional>(std::span<const double>, std::span<const double>, Sector);
-template Spread spread_of(const Particles<PlaneStrain>&, std::span<const double>, double);
-template Spread spread_of(const Particles<Axisymmetric>&, std::span<const double>, double);
-template Spread spread_of(const Particles<ThreeDimensional>&, std::span<const double>, double);
+template decltype(surface_profiles<PlaneStrain>) surface_profiles<PlaneStrain>;
+template decltype(surface_profiles<Axisymmetric>) surface_profiles<Axisymmetric>;
+template decltype(surface_profiles<ThreeDimensional>) surface_profiles<ThreeDimensional>;
+template decltype(outline<PlaneStrain>) outline<PlaneStrain>;
+template decltype(outline<Axisymmetric>) outline<Axisymmetric>;
+template decltype(outline<ThreeDimensional>) outline<ThreeDimensional>;
+template decltype(outline_volume<PlaneStrain>) outline_volume<PlaneStrain>;
+template decltype(outline_volume<Axisymmetric>) outline_volume<Axisymmetric>;
+template decltype(outline_volume<ThreeDimensional>) outline_volume<ThreeDimensional>;
+template decltype(spread_of<PlaneStrain>) spread_of<PlaneStrain>;
+template decltype(spread_of<Axisymmetric>) spread_of<Axisymmetric>;
+template decltype(spread_of<ThreeDimensional>) spread_of<ThreeDimensional>;
 
 } // namespace host

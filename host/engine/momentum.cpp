@@ -66,14 +66,8 @@ ClusterForces<Geometry> forces_on(const Particles<Geometry>& p, const Kernel<Geo
           diffusion_rate(own, inside, load(&p.diffusivity[first]), medium)};
 }
 
-template ClusterForces<PlaneStrain> forces_on(const Particles<PlaneStrain>&, const Kernel<2>&,
-                                              const NeighbourLists&, const Records<PlaneStrain>&,
-                                              const Medium&, int);
-template ClusterForces<Axisymmetric> forces_on(const Particles<Axisymmetric>&, const Kernel<2>&,
-                                               const NeighbourLists&, const Records<Axisymmetric>&,
-                                               const Medium&, int);
-template ClusterForces<ThreeDimensional> forces_on(const Particles<ThreeDimensional>&, const Kernel<3>&,
-                                                   const NeighbourLists&, const Records<ThreeDimensional>&,
-                                                   const Medium&, int);
+template decltype(forces_on<PlaneStrain>) forces_on<PlaneStrain>;
+template decltype(forces_on<Axisymmetric>) forces_on<Axisymmetric>;
+template decltype(forces_on<ThreeDimensional>) forces_on<ThreeDimensional>;
 
 } // namespace host

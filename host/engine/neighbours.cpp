@@ -229,20 +229,14 @@ void prune(const Particles<Geometry>& p, const Records<Geometry>& records, doubl
   }
 }
 
-template void sort_particles(Particles<PlaneStrain>&, double);
-template void sort_particles(Particles<Axisymmetric>&, double);
-template void sort_particles(Particles<ThreeDimensional>&, double);
-template void find_neighbours(const Particles<PlaneStrain>&, const Images&, const Records<PlaneStrain>&,
-                              double, NeighbourLists&);
-template void find_neighbours(const Particles<Axisymmetric>&, const Images&, const Records<Axisymmetric>&,
-                              double, NeighbourLists&);
-template void find_neighbours(const Particles<ThreeDimensional>&, const Images&,
-                              const Records<ThreeDimensional>&, double, NeighbourLists&);
-template void prune(const Particles<PlaneStrain>&, const Records<PlaneStrain>&, double, const NeighbourLists&,
-                    NeighbourLists&);
-template void prune(const Particles<Axisymmetric>&, const Records<Axisymmetric>&, double,
-                    const NeighbourLists&, NeighbourLists&);
-template void prune(const Particles<ThreeDimensional>&, const Records<ThreeDimensional>&, double,
-                    const NeighbourLists&, NeighbourLists&);
+template decltype(sort_particles<PlaneStrain>) sort_particles<PlaneStrain>;
+template decltype(sort_particles<Axisymmetric>) sort_particles<Axisymmetric>;
+template decltype(sort_particles<ThreeDimensional>) sort_particles<ThreeDimensional>;
+template decltype(find_neighbours<PlaneStrain>) find_neighbours<PlaneStrain>;
+template decltype(find_neighbours<Axisymmetric>) find_neighbours<Axisymmetric>;
+template decltype(find_neighbours<ThreeDimensional>) find_neighbours<ThreeDimensional>;
+template decltype(prune<PlaneStrain>) prune<PlaneStrain>;
+template decltype(prune<Axisymmetric>) prune<Axisymmetric>;
+template decltype(prune<ThreeDimensional>) prune<ThreeDimensional>;
 
 } // namespace host

@@ -119,22 +119,14 @@ void write_stress_records(Particles<Geometry>& p, int first, int used,
   }
 }
 
-template StressBlocks make_stress_blocks(const Material&, const Particles<PlaneStrain>&, double);
-template void advance_stress(Particles<PlaneStrain>&, const Material&, const Increment&, const StressBlocks&,
-                             const BlockGradient<PlaneStrain>&, int, VumatBlock&, FirstFailure&);
-template void write_stress_records(Particles<PlaneStrain>&, int, int, const ClusterGradient<PlaneStrain>&,
-                                   const Medium&, double, Records<PlaneStrain>&);
-template StressBlocks make_stress_blocks(const Material&, const Particles<Axisymmetric>&, double);
-template void advance_stress(Particles<Axisymmetric>&, const Material&, const Increment&, const StressBlocks&,
-                             const BlockGradient<Axisymmetric>&, int, VumatBlock&, FirstFailure&);
-template void write_stress_records(Particles<Axisymmetric>&, int, int, const ClusterGradient<Axisymmetric>&,
-                                   const Medium&, double, Records<Axisymmetric>&);
-template StressBlocks make_stress_blocks(const Material&, const Particles<ThreeDimensional>&, double);
-template void advance_stress(Particles<ThreeDimensional>&, const Material&, const Increment&,
-                             const StressBlocks&, const BlockGradient<ThreeDimensional>&, int, VumatBlock&,
-                             FirstFailure&);
-template void write_stress_records(Particles<ThreeDimensional>&, int, int,
-                                   const ClusterGradient<ThreeDimensional>&, const Medium&, double,
-                                   Records<ThreeDimensional>&);
+template decltype(make_stress_blocks<PlaneStrain>) make_stress_blocks<PlaneStrain>;
+template decltype(make_stress_blocks<Axisymmetric>) make_stress_blocks<Axisymmetric>;
+template decltype(make_stress_blocks<ThreeDimensional>) make_stress_blocks<ThreeDimensional>;
+template decltype(advance_stress<PlaneStrain>) advance_stress<PlaneStrain>;
+template decltype(advance_stress<Axisymmetric>) advance_stress<Axisymmetric>;
+template decltype(advance_stress<ThreeDimensional>) advance_stress<ThreeDimensional>;
+template decltype(write_stress_records<PlaneStrain>) write_stress_records<PlaneStrain>;
+template decltype(write_stress_records<Axisymmetric>) write_stress_records<Axisymmetric>;
+template decltype(write_stress_records<ThreeDimensional>) write_stress_records<ThreeDimensional>;
 
 } // namespace host

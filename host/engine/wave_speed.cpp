@@ -106,8 +106,8 @@ void update_wave_speed(Particles<Geometry>& p, const Material& material, StressB
   if (failure.bad) report_failure(p, material, failure, blocks.failure_state);
 }
 
-template void update_wave_speed(Particles<PlaneStrain>&, const Material&, StressBlocks&, long);
-template void update_wave_speed(Particles<Axisymmetric>&, const Material&, StressBlocks&, long);
-template void update_wave_speed(Particles<ThreeDimensional>&, const Material&, StressBlocks&, long);
+template decltype(update_wave_speed<PlaneStrain>) update_wave_speed<PlaneStrain>;
+template decltype(update_wave_speed<Axisymmetric>) update_wave_speed<Axisymmetric>;
+template decltype(update_wave_speed<ThreeDimensional>) update_wave_speed<ThreeDimensional>;
 
 } // namespace host

@@ -72,18 +72,14 @@ template <class Geometry> void keep_deformation(const VumatBlock& b, int first, 
   }
 }
 
-template void carry_deformation(Particles<PlaneStrain>&);
-template void carry_deformation(Particles<Axisymmetric>&);
-template void enter_corotational(const Particles<PlaneStrain>&, const BlockGradient<PlaneStrain>&, int,
-                                 double, VumatBlock&);
-template void enter_corotational(const Particles<Axisymmetric>&, const BlockGradient<Axisymmetric>&, int,
-                                 double, VumatBlock&);
-template void keep_deformation(const VumatBlock&, int, Particles<PlaneStrain>&);
-template void keep_deformation(const VumatBlock&, int, Particles<Axisymmetric>&);
-
-template void carry_deformation(Particles<ThreeDimensional>&);
-template void enter_corotational(const Particles<ThreeDimensional>&, const BlockGradient<ThreeDimensional>&,
-                                 int, double, VumatBlock&);
-template void keep_deformation(const VumatBlock&, int, Particles<ThreeDimensional>&);
+template decltype(carry_deformation<PlaneStrain>) carry_deformation<PlaneStrain>;
+template decltype(carry_deformation<Axisymmetric>) carry_deformation<Axisymmetric>;
+template decltype(carry_deformation<ThreeDimensional>) carry_deformation<ThreeDimensional>;
+template decltype(enter_corotational<PlaneStrain>) enter_corotational<PlaneStrain>;
+template decltype(enter_corotational<Axisymmetric>) enter_corotational<Axisymmetric>;
+template decltype(enter_corotational<ThreeDimensional>) enter_corotational<ThreeDimensional>;
+template decltype(keep_deformation<PlaneStrain>) keep_deformation<PlaneStrain>;
+template decltype(keep_deformation<Axisymmetric>) keep_deformation<Axisymmetric>;
+template decltype(keep_deformation<ThreeDimensional>) keep_deformation<ThreeDimensional>;
 
 } // namespace host
