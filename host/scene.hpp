@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is to be simulated, in SI units: everything a run needs and nothing it computes.
+// What is to be simulated, in SI units: all that start_simulation (host/engine/simulation.hpp) needs. The reader of scene
+// files (drivers/files/scene_file.hpp) fills it; a program may fill it by itself. Stress is effective, tension positive.
 #pragma once
 #include "host/bodies/column.hpp"
 #include "host/material/block.hpp"
@@ -15,7 +16,7 @@ namespace host {
 
 enum class GeometryKind { plane_strain, axisymmetric, three_dimensional };
 
-/// What part of a cylinder is simulated in three dimensions: all of it, x >= 0, or x >= 0 and y >= 0.
+/// What is simulated in three dimensions: all of space, x >= 0, or x >= 0 and y >= 0.
 enum class Sector { full, half, quarter };
 
 /// Number of vertical planes of symmetry: x = 0, then y = 0.
@@ -23,7 +24,7 @@ inline int symmetry_planes(Sector sector) {
   return sector == Sector::full ? 0 : (sector == Sector::half ? 1 : 2);
 }
 
-/// Part of the whole cylinder.
+/// Part of a body that is symmetric about the vertical axis.
 inline double fraction(Sector sector) {
   return 1.0 / (1 << symmetry_planes(sector));
 }
@@ -49,7 +50,7 @@ struct Gate {
   }
 };
 
-/// Numerical choices; their effect is measured, the defaults are the recommended ones.
+/// Numerical choices. The defaults are recommended; what others do: host/SCHEME.md.
 struct Numerics {
   KernelKind kernel = KernelKind::wendland_c2;
   double smoothing_length = 1.5;      ///< in spacings
@@ -57,7 +58,7 @@ struct Numerics {
   double flow_viscosity = 25;         ///< beta: times smoothing length and velocity gradient
   double stress_diffusion = 5;        ///< in smoothing lengths squared per unit strain
   double step_factor = 0.4;           ///< step = factor * h / (wave speed + flow speed)
-  double wave_speed_tolerance = 0.02; ///< change of stress up to which a wave speed is kept, relative
+  double wave_speed_tolerance = 0.02; ///< relative change of stress up to which a wave speed is kept
   double skin = 0.4;                  ///< of the neighbour lists, in spacings
 };
 
@@ -71,20 +72,21 @@ struct Scene {
   Material material;
   std::vector<std::string> state_names; ///< one for each state variable
   std::vector<double> initial_state;    ///< STATEV of every particle at the start
-  int failure_state = -1;  ///< position in STATEV that is negative after a failed update; -1: there is none
-  double bulk_density = 0; ///< kg/m3, initial
+  int failure_state =
+      -1; ///< position in STATEV, from 0, that is negative after a failed update; -1: there is none
+  double bulk_density = 0;         ///< kg/m3, initial
   double earth_pressure_ratio = 0; ///< K0: horizontal over vertical initial stress
   double friction_angle = 0;       ///< degrees, critical state; 0 where the material has none
   Floor floor;
   Gate gate;
   std::vector<Wall> walls; ///< beside floor and gate
   Numerics numerics;
-  double end_time = 0;        ///< s
-  double rest_fraction = 0;   ///< at rest when kinetic energy / initial potential energy is below it
-  double sample_interval = 0; ///< s
-  double snapshot_interval = 0;
+  double end_time = 0;             ///< s, latest end
+  double rest_fraction = 0;        ///< at rest when kinetic energy / initial potential energy is below it
+  double sample_interval = 0;      ///< s, of the series
+  double snapshot_interval = 0;    ///< s, of all particles
   double checkpoint_interval = 60; ///< s of wall clock
-  double grain_diameter = 0;       ///< m: the front is where the deposit is this high
+  double grain_diameter = 0;       ///< m; the front is where the deposit is this high
   std::string output_folder;
   std::string resolved; ///< the scene file with every key written out
 };
