@@ -8,15 +8,15 @@
 namespace drivers {
 namespace {
 
-host::Kinematics motion_between(const DrivenMotion& motion, const host::Tensor& at_start, double from,
-                                double to, const host::Tensor& now) {
-  if (motion.by_velocity) return host::carried_along(now, (to - from) * motion.value);
+host::Kinematics motion_to(const DrivenMotion& motion, const host::Tensor& at_start, double from, double to,
+                           const host::Tensor& now) {
+  if (motion.by_velocity) return host::motion_by_gradient(now, (to - from) * motion.value);
   const host::Tensor target = at_start + to * (motion.value - at_start);
   if (!(target.determinant() > 0))
     throw std::runtime_error(
         fmt::format("the straight line to the deformation gradient passes through a determinant of {:g}",
                     target.determinant()));
-  return host::led_to(now, target);
+  return host::motion_between(now, target);
 }
 
 } // namespace
@@ -40,7 +40,7 @@ StepReport follow(MaterialCaller& material, const DrivenMotion& motion, const ho
                   double from, double to, double duration, PointState& point) {
   std::optional<host::Kinematics> kinematics;
   try {
-    kinematics = motion_between(motion, at_start, from, to, point.gradient);
+    kinematics = motion_to(motion, at_start, from, to, point.gradient);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", motion.where, error.what()));
   }

@@ -112,6 +112,7 @@ host::Scene read_scene(const std::string& path, const std::vector<std::string>& 
   const auto column = root.table("column");
   scene.column.radius = column.number("radius", {1e-6, 1e4});
   scene.column.height = column.number("height", {1e-6, 1e4});
+  scene.gate.radius = scene.column.radius;
   if (root.has("wall")) read_placement(column, scene);
   read_material(root, scene);
   read_initial_stress(root, scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/files/wall_file.hpp"
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/engine/integrate.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/walls/surfaces.hpp"
@@ -139,7 +139,7 @@ template <int D> struct Nearest {
 
 template <class Geometry> void check_column(const TomlTable& root, const host::Scene& scene) {
   constexpr int D = Geometry::dimension;
-  const auto column = host::make_column<Geometry>(scene);
+  const auto column = host::initial_particles<Geometry>(scene);
   const auto walls = host::all_walls(scene);
   const auto tables = root.tables("wall");
   const double least = host::contact_gap * scene.spacing;
@@ -182,11 +182,11 @@ std::vector<Wall> read_walls(const TomlTable& root, const host::Scene& scene) {
 void read_placement(const TomlTable& table, host::Scene& scene) {
   auto& column = scene.column;
   const bool solid = scene.geometry == GeometryKind::three_dimensional;
-  if (scene.geometry == GeometryKind::plane_strain) column.symmetric = table.flag("symmetric", true);
+  if (scene.geometry == GeometryKind::plane_strain) scene.symmetric = table.flag("symmetric", true);
   if (solid && table.has("depth")) column.depth = table.number("depth", {1e-6, 1e4});
   column.base = table.number("base", {0, 1e4}, 0);
   const bool free = solid ? scene.sector == host::Sector::full
-                          : scene.geometry == GeometryKind::plane_strain && !column.symmetric;
+                          : scene.geometry == GeometryKind::plane_strain && !scene.symmetric;
   if (!free) return;
   const auto center = table.numbers("center", solid ? 2 : 1, place, std::vector<double>(solid ? 2 : 1, 0));
   std::ranges::copy(center, column.center.begin());

@@ -96,7 +96,7 @@ std::vector<WallSample> wall_samples(const std::vector<host::WallLoad>& loads, d
 /// Outline samples reach as far as grains of any deposit seen: three column heights past the column.
 std::vector<double> outline_places(const host::Scene& scene) {
   const double reach = scene.column.radius + 3 * scene.column.height, middle = scene.column.center[0];
-  if (scene.column.symmetric) return host::outline_radii(scene.spacing, std::abs(middle) + reach);
+  if (scene.symmetric) return host::outline_radii(scene.spacing, std::abs(middle) + reach);
   return host::outline_radii(scene.spacing, middle + reach, std::min(middle - reach, -scene.spacing));
 }
 

@@ -154,16 +154,16 @@ void check_latest(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
 /// Warns of energy that pairs made and viscosity took: too little to end the run, too much to pass unseen.
 template <class Geometry>
 void warn_of_pairs(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
-  const auto gift = [](const Sample& sample) { return host::gift_of_pairs(sample.work); };
-  const Sample& worst = std::ranges::max(recorder.samples(), {}, gift);
-  const double share = gift(worst) / host::energy_scale(s);
-  if (!host::walls_rest(s.scene) || share <= host::suspect_pair_gift) return;
+  const auto work = [](const Sample& sample) { return host::pair_work(sample.work); };
+  const Sample& worst = std::ranges::max(recorder.samples(), {}, work);
+  const double share = work(worst) / host::energy_scale(s);
+  if (!host::walls_rest(s.scene) || share <= host::suspect_pair_gain) return;
   spdlog::warn(
       "{}: until {:.4g} s the stress of pairs and walls had given the sand {:.3g} of the initial potential "
       "energy "
       "(beyond {} it is suspect), which the artificial viscosity took; compare with a run at another "
       "scene.spacing or numerics.step_factor",
-      s.scene.output_folder, worst.time, share, host::suspect_pair_gift);
+      s.scene.output_folder, worst.time, share, host::suspect_pair_gain);
 }
 
 /// The loop of steps, until rest, the latest end or a request to stop.
@@ -244,10 +244,11 @@ template <class Geometry> Summary run(const host::Scene& scene, const RunOptions
 
 Summary run_scene(const host::Scene& scene, const RunOptions& options) {
   const auto folder = std::filesystem::path(scene.output_folder).lexically_normal();
-  host::job() = {(folder.has_filename() ? folder : folder.parent_path()).filename().string(),
-                 scene.output_folder};
+  auto named = scene;
+  named.material.job = {(folder.has_filename() ? folder : folder.parent_path()).filename().string(),
+                        scene.output_folder};
   return host::with_geometry(scene.geometry,
-                             [&](auto geometry) { return run<decltype(geometry)>(scene, options); });
+                             [&](auto geometry) { return run<decltype(geometry)>(named, options); });
 }
 
 } // namespace drivers

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors in parallel loops: an exception must not leave a loop of threads, and which one is reported must not
-// depend on their number.
+// Errors in parallel loops. An exception must not leave a loop of threads, and the one that is reported must not depend
+// on the number of threads.
 #pragma once
 #include <exception>
 #include <limits>
@@ -21,7 +21,7 @@ public:
       error = std::current_exception();
     }
   }
-  /// Throws what was kept, if anything was.
+  /// Throws the exception that was kept, if there is one.
   void rethrow() const {
     if (error) std::rethrow_exception(error);
   }

@@ -10,7 +10,7 @@ namespace host {
 /// Fills `records.motion` of the particles (not of the images).
 template <class Geometry> void show_motion(const Particles<Geometry>& particles, Records<Geometry>& records);
 
-/// The same for particle i.
+/// Writes `records.motion` of particle i.
 template <class Geometry>
 inline void show_motion_of(const Particles<Geometry>& p, int i, Records<Geometry>& records) {
   auto& record = records.motion[i];
@@ -44,10 +44,5 @@ inline void find_gradient(const Particles<Geometry>& p, const Kernel<D>& kernel,
   sums.scale(kernel.pair_scale());
   correct_gradient(sums, gradient);
 }
-
-/// Velocity gradient of all particles.
-template <class Geometry>
-void update_gradient(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
-                     const NeighbourLists& lists, const Records<Geometry>& records);
 
 } // namespace host

@@ -11,8 +11,8 @@
 namespace host {
 namespace {
 
-/// Largest component of the velocity gradient of point k, 1/s; not a number if any of them is none.
-template <class Geometry> double steepest(const BlockGradient<Geometry>& gradient, int k) {
+/// Largest component of the velocity gradient of point k, 1/s; not a number if one of them is not.
+template <class Geometry> double largest_component(const BlockGradient<Geometry>& gradient, int k) {
   double largest = 0;
   for (const auto& component : gradient.component) {
     const double slope = std::abs(component[k]);
@@ -29,7 +29,7 @@ template <class Geometry> double square_speed(const Particles<Geometry>& p, int 
 }
 
 /// "particle 7 at (0.1, 0.2) m"
-template <class Geometry> std::string named(const Particles<Geometry>& p, int i) {
+template <class Geometry> std::string describe(const Particles<Geometry>& p, int i) {
   std::vector<double> place;
   for (const auto& x : p.position) place.push_back(x[i]);
   return fmt::format("particle {} at ({:.6g}) m", p.id[i], fmt::join(place, ", "));
@@ -42,18 +42,18 @@ template <class Geometry> std::string fastest_of(const Particles<Geometry>& p) {
   int fastest = 0;
   for (int i = 1; i < p.count; ++i)
     if (square_speed(p, i) > square_speed(p, fastest)) fastest = i;
-  return fmt::format("{} with {:.3g} m/s", named(p, fastest), std::sqrt(square_speed(p, fastest)));
+  return fmt::format("{} with {:.3g} m/s", describe(p, fastest), std::sqrt(square_speed(p, fastest)));
 }
 
-bool rests(const Wall& wall) {
+bool is_fixed(const Wall& wall) {
   return wall.motion.time.empty();
 }
 
-/// Lowest vertical displacement, m, at the times that a wall's motion lists.
-double deepest_displacement(const WallMotion& motion, int up) {
-  double deepest = 0;
-  for (const double t : motion.time) deepest = std::min(deepest, motion.displacement(t)[up]);
-  return deepest;
+/// Lowest vertical displacement of a wall, m.
+double lowest_displacement(const WallMotion& motion, int up) {
+  double lowest = 0;
+  for (const double t : motion.time) lowest = std::min(lowest, motion.displacement(t)[up]);
+  return lowest;
 }
 
 /// Height of a wall that sand cannot be below, m; minus infinity if it bounds no height.
@@ -63,7 +63,7 @@ double bottom_of(const Wall& wall, int up) {
   if (wall.shape == WallShape::plane && wall.normal[up] > upright) bottom = wall.point[up];
   if (wall.shape == WallShape::box && wall.inside && wall.lower[up] > -0.5 * unbounded)
     bottom = wall.lower[up];
-  return bottom + deepest_displacement(wall.motion, up);
+  return bottom + lowest_displacement(wall.motion, up);
 }
 
 } // namespace
@@ -74,23 +74,24 @@ void check_strain(const Particles<Geometry>& p, const BlockGradient<Geometry>& g
   const double most = largest_strain_step / dt;
   bool sound = true;
   for (const auto& component : gradient.component)
-    for (int k = 0; k < count; ++k) sound &= std::abs(component[k]) <= most; // false for what is no number
+    for (int k = 0; k < count; ++k) sound &= std::abs(component[k]) <= most; // false for NaN
   if (sound) return;
   for (int k = 0; k < count; ++k)
-    if (const double strain = steepest(gradient, k) * dt; !(strain <= largest_strain_step))
-      throw UnsoundMotion(fmt::format("the motion became unstable at time {:.9g} s: {} strains by {:.3g} in "
-                                      "one step of {:.3g} s (at most {} is sound); {}",
-                                      time, named(p, first + k), strain, dt, largest_strain_step, advice));
+    if (const double strain = largest_component(gradient, k) * dt; !(strain <= largest_strain_step))
+      throw UnstableMotion(fmt::format("the motion became unstable at time {:.9g} s: {} strains by {:.3g} in "
+                                       "one step of {:.3g} s (at most {} is sound); {}",
+                                       time, describe(p, first + k), strain, dt, largest_strain_step,
+                                       advice));
 }
 
 template <class Geometry>
-void check_energy(const Particles<Geometry>& p, double time, double made, double unclosed) {
-  if (made <= largest_made_energy && std::abs(unclosed) <= largest_unclosed_energy) return;
-  throw std::runtime_error(
-      fmt::format("the energy went wrong at time {:.9g} s: {:.3g} of the initial potential energy was made "
-                  "from nothing (at most "
-                  "{}), {:.3g} of it is unaccounted for (at most {}); the fastest is {}; {}",
-                  time, made, largest_made_energy, unclosed, largest_unclosed_energy, fastest_of(p), advice));
+void check_energy(const Particles<Geometry>& p, double time, double gain, double imbalance) {
+  if (gain <= largest_energy_gain && std::abs(imbalance) <= largest_energy_imbalance) return;
+  throw std::runtime_error(fmt::format(
+      "the energy went wrong at time {:.9g} s: {:.3g} of the initial potential energy was made "
+      "from nothing (at most "
+      "{}), {:.3g} of it is unaccounted for (at most {}); the fastest is {}; {}",
+      time, gain, largest_energy_gain, imbalance, largest_energy_imbalance, fastest_of(p), advice));
 }
 
 double lowest_level(const Scene& scene) {
@@ -108,7 +109,7 @@ template <class Geometry> double energy_scale(const Simulation<Geometry>& s) {
 }
 
 bool walls_rest(const Scene& scene) {
-  return std::ranges::all_of(scene.walls, rests);
+  return std::ranges::all_of(scene.walls, is_fixed);
 }
 
 template <class Geometry> double given_by_walls(const Simulation<Geometry>& s) {
@@ -117,44 +118,40 @@ template <class Geometry> double given_by_walls(const Simulation<Geometry>& s) {
   return given;
 }
 
-double gift_of_pairs(const Work& work) {
+double pair_work(const Work& work) {
   return work.stress + work.wall + work.friction;
 }
 
 template <class Geometry> void check_work(const Simulation<Geometry>& s) {
   const double by_walls = given_by_walls(s), scale = energy_scale(s) + std::max(by_walls, 0.0);
-  const auto check = [&](const std::string& giver, double work, double most) {
-    if (work <= most * scale) return; // false for what is no number
+  const auto check = [&](const std::string& cause, double work, double most) {
+    if (work <= most * scale) return; // false for NaN
     throw std::runtime_error(fmt::format(
         "the energy went wrong at time {:.9g} s: {} gave the sand {:.3g} of the energy that was put in "
         "(at most {} is sound); the fastest is {}; {}",
-        s.time, giver, work / scale, most, fastest_of(s.particles), advice));
+        s.time, cause, work / scale, most, fastest_of(s.particles), advice));
   };
-  check("artificial viscosity", s.work.viscosity, largest_viscous_gift);
+  check("artificial viscosity", s.work.viscosity, largest_viscous_gain);
   for (std::size_t w = 0; w < s.walls.size(); ++w)
-    if (rests(s.walls[w]))
-      check(fmt::format("the wall '{}' at rest", s.walls[w].name), s.loads[w].work, largest_wall_gift);
-  check("the stress of pairs and walls", gift_of_pairs(s.work) - by_walls, largest_pair_gift);
+    if (is_fixed(s.walls[w]))
+      check(fmt::format("the wall '{}' at rest", s.walls[w].name), s.loads[w].work, largest_wall_gain);
+  check("the stress of pairs and walls", pair_work(s.work) - by_walls, largest_pair_gain);
 }
 
-template double given_by_walls(const Simulation<PlaneStrain>&);
-template double given_by_walls(const Simulation<Axisymmetric>&);
-template double given_by_walls(const Simulation<ThreeDimensional>&);
-template double energy_scale(const Simulation<PlaneStrain>&);
-template double energy_scale(const Simulation<Axisymmetric>&);
-template double energy_scale(const Simulation<ThreeDimensional>&);
-template void check_work(const Simulation<PlaneStrain>&);
-template void check_work(const Simulation<Axisymmetric>&);
-template void check_work(const Simulation<ThreeDimensional>&);
-template void check_energy(const Particles<PlaneStrain>&, double, double, double);
-template void check_energy(const Particles<Axisymmetric>&, double, double, double);
-
-template void check_strain(const Particles<PlaneStrain>&, const BlockGradient<PlaneStrain>&, int, int, double,
-                           double);
-template void check_strain(const Particles<Axisymmetric>&, const BlockGradient<Axisymmetric>&, int, int,
-                           double, double);
-template void check_energy(const Particles<ThreeDimensional>&, double, double, double);
-template void check_strain(const Particles<ThreeDimensional>&, const BlockGradient<ThreeDimensional>&, int,
-                           int, double, double);
+template decltype(given_by_walls<PlaneStrain>) given_by_walls<PlaneStrain>;
+template decltype(given_by_walls<Axisymmetric>) given_by_walls<Axisymmetric>;
+template decltype(given_by_walls<ThreeDimensional>) given_by_walls<ThreeDimensional>;
+template decltype(energy_scale<PlaneStrain>) energy_scale<PlaneStrain>;
+template decltype(energy_scale<Axisymmetric>) energy_scale<Axisymmetric>;
+template decltype(energy_scale<ThreeDimensional>) energy_scale<ThreeDimensional>;
+template decltype(check_work<PlaneStrain>) check_work<PlaneStrain>;
+template decltype(check_work<Axisymmetric>) check_work<Axisymmetric>;
+template decltype(check_work<ThreeDimensional>) check_work<ThreeDimensional>;
+template decltype(check_energy<PlaneStrain>) check_energy<PlaneStrain>;
+template decltype(check_energy<Axisymmetric>) check_energy<Axisymmetric>;
+template decltype(check_energy<ThreeDimensional>) check_energy<ThreeDimensional>;
+template decltype(check_strain<PlaneStrain>) check_strain<PlaneStrain>;
+template decltype(check_strain<Axisymmetric>) check_strain<Axisymmetric>;
+template decltype(check_strain<ThreeDimensional>) check_strain<ThreeDimensional>;
 
 } // namespace host

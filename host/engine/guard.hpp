@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds that a sound step keeps by far. Beyond them the motion is numbers, not sand, and the run ends.
+// Bounds that a sound step keeps by far. A run that exceeds one of them has become unstable, and ends.
 #pragma once
 #include "host/engine/stress.hpp"
 #include <stdexcept>
@@ -9,54 +9,54 @@ namespace host {
 struct Work;
 template <class Geometry> struct Simulation;
 
-/// Largest component of the velocity gradient times the step that is accepted. Collapses of columns, a = 0.5 to
-/// 10, stay below a tenth of it, grains in flight included.
+/// Largest accepted component of the velocity gradient times the step. Collapses of columns of aspect ratios 0.5 to 10
+/// stay below a tenth of it, grains in flight included.
 inline constexpr double largest_strain_step = 0.05;
-/// Largest kinetic and potential energy beyond that of the start and what walls put in, and largest error of the
-/// energy balance; over the initial potential energy. Collapses stay at 0 and below 0.0006.
-inline constexpr double largest_made_energy = 0.02, largest_unclosed_energy = 0.005;
+/// Largest gain of kinetic and potential energy since the start, beyond the work of moving walls, and largest error of the
+/// energy balance, both over the initial potential energy. In collapses of columns the gain is 0 and the error below 0.0006.
+inline constexpr double largest_energy_gain = 0.02, largest_energy_imbalance = 0.005;
 
-/// Largest work that may have been done on the sand, over the initial potential energy, by artificial viscosity, which
-/// only takes, and by a wall at rest, whose images without slip give up to 0.008 in sound collapses.
-inline constexpr double largest_viscous_gift = 1e-3, largest_wall_gift = 0.03;
-/// The same by pairs and walls together, less what moving walls put in. Alone neither tells: at an impact images take what
-/// pairs give, and give it back. Sand gives back what it was loaded with, less than a thousandth. A run warns of the first
-/// number and ends at the second.
-inline constexpr double suspect_pair_gift = 0.01, largest_pair_gift = 0.05;
+/// Largest accepted work on the sand, over the initial potential energy: by artificial viscosity, which should only take
+/// energy, and by a wall at rest, whose images without slip add up to 0.008 in sound collapses.
+inline constexpr double largest_viscous_gain = 1e-3, largest_wall_gain = 0.03;
+/// The same by pairs and walls together, less the work of moving walls. Only the sum can be judged, since at an impact
+/// images and pairs exchange energy. Sand returns the elastic energy it was loaded with, which is less than a thousandth. A
+/// run warns beyond the first number and ends at the second.
+inline constexpr double suspect_pair_gain = 0.01, largest_pair_gain = 0.05;
 
-struct UnsoundMotion : std::runtime_error {
+struct UnstableMotion : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws UnsoundMotion naming particle, place, time and strain if a particle deforms or turns by more in
-/// this step, or by what is not a number: of the `count` particles first, first + 1, ...
+/// Throws UnstableMotion naming particle, place, time and strain if one of the `count` particles first, first + 1, ...
+/// deforms or turns by more than largest_strain_step in this step, or by a value that is not a number.
 template <class Geometry>
 void check_strain(const Particles<Geometry>& particles, const BlockGradient<Geometry>& gradient, int first,
                   int count, double time, double dt);
 
-/// Throws std::runtime_error naming the fastest particle and the time if either energy, over the initial potential
-/// energy, is larger than accepted or not a number.
+/// Throws std::runtime_error naming the fastest particle and the time if the gain or the imbalance of energy, both over the
+/// initial potential energy, is larger than accepted or not a number.
 template <class Geometry>
-void check_energy(const Particles<Geometry>& particles, double time, double made, double unclosed);
+void check_energy(const Particles<Geometry>& particles, double time, double gain, double imbalance);
 
-/// Height, m, of the lowest floor: the highest of the horizontal planes and bottoms of boxes that the sand is above,
-/// moving ones at their lowest; 0 where there is none, as on a slope.
+/// Height, m, below which no sand can be: the highest of floor, horizontal planes and bottoms of boxes, moving ones at
+/// their lowest place; 0 if there is none, as on a slope.
 double lowest_level(const Scene& scene);
 
-/// Potential energy above that height at the start, J: what energies are compared with.
+/// Potential energy above that height at the start, J. Gains and errors of energy are compared with it.
 template <class Geometry> double energy_scale(const Simulation<Geometry>& simulation);
 
-/// What moving walls have put in, J. The gate, smooth and upright, gives nothing.
+/// Work of moving walls on the sand since the start, J. The gate, smooth and upright, does none.
 template <class Geometry> double given_by_walls(const Simulation<Geometry>& simulation);
 
-/// Work of pairs and walls, J, that is to be compared with the largest gift: before what walls put in is taken off.
-double gift_of_pairs(const Work& work);
+/// Work of pairs and walls, J. Less the work of moving walls it is compared with largest_pair_gain.
+double pair_work(const Work& work);
 
 /// True if no wall of the scene's list moves.
 bool walls_rest(const Scene& scene);
 
-/// Throws std::runtime_error naming what gave the sand more energy than it can, how much, the time and the fastest
-/// particle.
+/// Throws std::runtime_error if viscosity, a wall at rest, or pairs and walls together have done more work on the sand
+/// than accepted: names the cause, the work, the time and the fastest particle.
 template <class Geometry> void check_work(const Simulation<Geometry>& simulation);
 
 } // namespace host

@@ -174,22 +174,6 @@ ClusterMotion move_cluster(Particles<Geometry>& p, const Scene& scene, const std
   return motion;
 }
 
-template <class Geometry>
-Work integrate(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors, double reach,
-               double dt_before, double dt) {
-  Work all;
-  for (int c = 0; c < p.clusters(); ++c) {
-    ClusterForces<Geometry> by{};
-    for (int a = 0; a < Geometry::dimension; ++a) {
-      by.stress[a] = load(&p.stress_acceleration[a][c * lanes]);
-      by.viscous[a] = load(&p.viscous_acceleration[a][c * lanes]);
-      by.wall[a] = load(&p.wall_acceleration[a][c * lanes]);
-    }
-    all.add(move_cluster(p, scene, mirrors, reach, dt_before, dt, by, c).work);
-  }
-  return all;
-}
-
 template <class Geometry> double kinetic_energy(const Particles<Geometry>& p) {
   double sum = 0;
   for (int i = 0; i < p.count; ++i) {
@@ -212,12 +196,6 @@ template ClusterMotion move_cluster(Particles<Axisymmetric>&, const Scene&, cons
                                     double, double, double, const ClusterForces<Axisymmetric>&, int);
 template ClusterMotion move_cluster(Particles<ThreeDimensional>&, const Scene&, const std::vector<Mirror>&,
                                     double, double, double, const ClusterForces<ThreeDimensional>&, int);
-template Work integrate(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double, double,
-                        double);
-template Work integrate(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&, double, double,
-                        double);
-template Work integrate(Particles<ThreeDimensional>&, const Scene&, const std::vector<Mirror>&, double,
-                        double, double);
 template double kinetic_energy(const Particles<PlaneStrain>&);
 template double kinetic_energy(const Particles<Axisymmetric>&);
 template double kinetic_energy(const Particles<ThreeDimensional>&);

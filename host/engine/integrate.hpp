@@ -43,11 +43,6 @@ ClusterMotion move_cluster(Particles<Geometry>& particles, const Scene& scene,
                            const std::vector<Mirror>& mirrors, double reach, double dt_before, double dt,
                            const ClusterForces<Geometry>& by, int c);
 
-/// The same for all particles, under the accelerations that they hold. Returns the work of the step.
-template <class Geometry>
-Work integrate(Particles<Geometry>& particles, const Scene& scene, const std::vector<Mirror>& mirrors,
-               double reach, double dt_before, double dt);
-
 /// Kinetic energy and potential energy above the floor, J (plane strain: J/m).
 template <class Geometry> double kinetic_energy(const Particles<Geometry>& particles);
 template <class Geometry> double potential_energy(const Particles<Geometry>& particles, double gravity);

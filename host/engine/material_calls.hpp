@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the stages call the material for all particles: inputs into blocks, blocks to threads, failures collected.
-// For the sources of stress and wave speed.
+// How the engine calls the material for all particles: it fills blocks, shares them out between threads and collects
+// failures. For the sources of stress and wave speed.
 #pragma once
 #include "host/engine/first_error.hpp"
 #include "host/engine/guard.hpp"
 #include "host/engine/stress.hpp"
 #include "host/material/reproducer.hpp"
-#include "host/material/utilities.hpp"
 #include "host/scheme/geometry.hpp"
 #include <fmt/format.h>
 #include <mutex>
@@ -23,7 +22,7 @@ std::array<double, Geometry::stress_components> stress_of(const Particles<Geomet
   return stress;
 }
 
-/// Inputs of a call at point k of the block, all but strain, stress and state.
+/// Sets the inputs of particle i at point k of the block, all but strain, stress and state.
 template <class Geometry>
 void pack_point(const Particles<Geometry>& p, int i, int k, double spacing, VumatBlock& b) {
   for (int a = 0; a < Geometry::dimension; ++a) b.coordinates[a * b.points + k] = p.position[a][i];
@@ -34,7 +33,7 @@ void pack_point(const Particles<Geometry>& p, int i, int k, double spacing, Vuma
   b.inelastic_energy_old[k] = p.inelastic_energy[i];
 }
 
-/// Inputs of a call for particles first, first + 1, ...
+/// Sets the inputs of particles first, first + 1, ..., all but strain and stress.
 template <class Geometry> void pack(const Particles<Geometry>& p, int first, double spacing, VumatBlock& b) {
   const int n = b.points;
   for (int a = 0; a < Geometry::dimension; ++a) std::copy_n(&p.position[a][first], n, &b.coordinates[a * n]);
@@ -46,18 +45,18 @@ template <class Geometry> void pack(const Particles<Geometry>& p, int first, dou
   for (int s = 0; s < b.state_variables; ++s) std::copy_n(&p.state[s][first], n, &b.state_old[s * n]);
 }
 
-/// The failure of the particle that comes first, with what its material was called with.
-struct Failure {
+/// The failure of the particle that comes first, with the inputs of its call: the same for any number of threads.
+struct FirstFailure {
   std::mutex mutex;
   int particle = std::numeric_limits<int>::max();
   std::optional<BadAnswer> bad;
 };
 
-/// Keeps the failure of the particle that comes first; `particle(k)` is that of point k. False if the block has
-/// none.
+/// Looks for a failure in the results of a block and keeps it if its particle comes first; `particle(k)` is that of point
+/// k. False if the block has none.
 template <class ParticleOf>
 bool note_failure(ParticleOf&& particle, const Material& material, const Increment& increment,
-                  const VumatBlock& b, int failure_state, Failure& failure) {
+                  const VumatBlock& b, int failure_state, FirstFailure& failure) {
   const int k = first_failure(b, failure_state);
   if (k < 0) return false;
   const std::scoped_lock lock(failure.mutex);
@@ -68,10 +67,10 @@ bool note_failure(ParticleOf&& particle, const Material& material, const Increme
   return true;
 }
 
-/// Calls `f(first, block)` for all particles, each thread with a block of its own; in order where the material
-/// wants one call at a time. In two dimensions threads take blocks in turn, so that flowing and resting parts fall to all
-/// alike; in three contiguous ones, which share fewer neighbours. An exception comes out with the first particle of its
-/// block.
+/// Calls `f(first, block)` for all particles, each thread with a block of its own, or in order if the material allows one
+/// call at a time only. In two dimensions threads take blocks in turn, so that each gets flowing and resting sand; in
+/// three they take contiguous ones, which share fewer neighbours. The exception of the first block that fails is thrown
+/// on, with the first particle of this block in its message.
 template <class Geometry, class F>
 void for_each_block(const Particles<Geometry>& p, const Material& material, StressBlocks& blocks, F&& f) {
   const int full = p.count / StressBlocks::points, all = full + int(blocks.tail.size());
@@ -80,7 +79,7 @@ void for_each_block(const Particles<Geometry>& p, const Material& material, Stre
     error.guarded(first, [&] {
       try {
         f(first, block);
-      } catch (const UnsoundMotion&) {
+      } catch (const UnstableMotion&) {
         throw;
       } catch (const std::runtime_error& what) {
         throw std::runtime_error(
@@ -96,10 +95,12 @@ void for_each_block(const Particles<Geometry>& p, const Material& material, Stre
   error.rethrow();
 }
 
+/// Throws std::runtime_error with particle, time, stress and strain increment, and writes the call to a file that can be
+/// replayed.
 template <class Geometry>
 [[noreturn]] void report_failure(const Particles<Geometry>& p, const Material& material,
-                                 const Failure& failure, int failure_state) {
-  const std::filesystem::path folder = job().folder;
+                                 const FirstFailure& failure, int failure_state) {
+  const std::filesystem::path folder = material.job.folder;
   throw std::runtime_error(
       evidence_of(material, failure_state, *failure.bad, fmt::format("particle {}", p.id[failure.particle]),
                   Geometry::dimension, folder.empty() ? folder : folder / "failed_point.toml"));

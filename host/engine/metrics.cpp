@@ -12,13 +12,13 @@ namespace {
 /// Particles and their images across planes of symmetry and the floor, in vertical cells of one support width.
 template <int D> struct Cells {
   static constexpr int H = D - 1; ///< horizontal coordinates
-  struct Point {
+  struct Particle {
     std::array<double, H> horizontal;
     double height, volume;
   };
   double width, lower;
   int across;
-  std::vector<std::vector<Point>> cell;
+  std::vector<std::vector<Particle>> cell;
 
   /// From `smallest` (three dimensions: -largest) to `largest`, m.
   Cells(double width, double smallest, double largest)
@@ -27,13 +27,14 @@ template <int D> struct Cells {
 
   int along(double x) const { return int(std::max(0.0, x - lower) / width); }
 
-  void put(const Point& point) {
+  /// Particles beyond `largest` are left out.
+  void add(const Particle& particle) {
     int index = 0;
     for (int a = H - 1; a >= 0; --a) {
-      if (along(point.horizontal[a]) >= across) return;
-      index = index * across + along(point.horizontal[a]);
+      if (along(particle.horizontal[a]) >= across) return;
+      index = index * across + along(particle.horizontal[a]);
     }
-    cell[index].push_back(point);
+    cell[index].push_back(particle);
   }
 };
 
@@ -46,30 +47,32 @@ Cells<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, double 
   for (int i = 0; i < p.count; ++i) {
     const double volume = p.mass[i] / (p.density[i] * Geometry::depth * Geometry::weight(p.position[0][i]));
     for (int image = 0; image < 1 << (planes + 1); ++image) { // the lowest bit is the floor's
-      typename Cells<D>::Point point{{}, p.position[H][i] * (image & 1 ? -1 : 1), volume};
-      bool near = point.height >= -support;
+      typename Cells<D>::Particle particle{{}, p.position[H][i] * (image & 1 ? -1 : 1), volume};
+      bool near = particle.height >= -support;
       for (int a = 0; a < H; ++a) {
-        point.horizontal[a] = p.position[a][i] * (image >> (a + 1) & 1 ? -1 : 1);
-        if (a < planes && point.horizontal[a] < -support) near = false;
+        particle.horizontal[a] = p.position[a][i] * (image >> (a + 1) & 1 ? -1 : 1);
+        if (a < planes && particle.horizontal[a] < -support) near = false;
       }
-      if (near) cells.put(point);
+      if (near) cells.add(particle);
     }
   }
   return cells;
 }
 
-/// What a vertical line meets: particles within the support, by height, the highest first.
-struct Near {
+/// A particle within the support of a vertical line.
+struct NearLine {
   double height, square, volume; ///< square of the distance from the line, m2
 };
 
-template <int D> std::vector<Near> along_line(const Cells<D>& cells, const std::array<double, D - 1>& x) {
-  std::vector<Near> near;
-  const auto visit = [&](const std::vector<typename Cells<D>::Point>& cell) {
-    for (const auto& point : cell) {
+/// All of them, the highest first.
+template <int D> std::vector<NearLine> along_line(const Cells<D>& cells, const std::array<double, D - 1>& x) {
+  std::vector<NearLine> near;
+  const auto visit = [&](const std::vector<typename Cells<D>::Particle>& cell) {
+    for (const auto& particle : cell) {
       double square = 0;
-      for (int a = 0; a < D - 1; ++a) square += (point.horizontal[a] - x[a]) * (point.horizontal[a] - x[a]);
-      if (square < cells.width * cells.width) near.push_back({point.height, square, point.volume});
+      for (int a = 0; a < D - 1; ++a)
+        square += (particle.horizontal[a] - x[a]) * (particle.horizontal[a] - x[a]);
+      if (square < cells.width * cells.width) near.push_back({particle.height, square, particle.volume});
     }
   };
   const auto first = [&](int a) { return std::max(0, cells.along(x[a]) - 1); };
@@ -79,14 +82,14 @@ template <int D> std::vector<Near> along_line(const Cells<D>& cells, const std::
   else
     for (int j = first(1); j <= last(1); ++j)
       for (int i = first(0); i <= last(0); ++i) visit(cells.cell[j * cells.across + i]);
-  std::ranges::stable_sort(near, [](const Near& a, const Near& b) { return a.height > b.height; });
+  std::ranges::stable_sort(near, [](const NearLine& a, const NearLine& b) { return a.height > b.height; });
   return near;
 }
 
-/// Share of the kernel at `height` on the line that particles fill.
-template <int D> double filled(const std::vector<Near>& near, const Kernel<D>& kernel, double height) {
+/// Share of the kernel at `height` on the line that is filled by particles.
+template <int D> double filled(const std::vector<NearLine>& near, const Kernel<D>& kernel, double height) {
   const double reach = kernel.support;
-  auto j = std::ranges::partition_point(near, [&](const Near& n) { return n.height >= height + reach; });
+  auto j = std::ranges::partition_point(near, [&](const NearLine& n) { return n.height >= height + reach; });
   double sum = 0;
   for (; j != near.end() && j->height > height - reach; ++j) {
     const double square = j->square + (j->height - height) * (j->height - height);
@@ -221,23 +224,17 @@ Spread spread_of(const Particles<Geometry>& p, std::span<const double> quantity,
   return spread;
 }
 
-template Profiles surface_profiles(const Particles<PlaneStrain>&, const Kernel<2>&, std::span<const double>,
-                                   Sector);
-template Profiles surface_profiles(const Particles<Axisymmetric>&, const Kernel<2>&, std::span<const double>,
-                                   Sector);
-template Profiles surface_profiles(const Particles<ThreeDimensional>&, const Kernel<3>&,
-                                   std::span<const double>, Sector);
-template std::vector<double> outline(const Particles<PlaneStrain>&, const Kernel<2>&, std::span<const double>,
-                                     Sector);
-template std::vector<double> outline(const Particles<Axisymmetric>&, const Kernel<2>&,
-                                     std::span<const double>, Sector);
-template std::vector<double> outline(const Particles<ThreeDimensional>&, const Kernel<3>&,
-                                     std::span<const double>, Sector);
-template double outline_volume<PlaneStrain>(std::span<const double>, std::span<const double>, Sector);
-template double outline_volume<Axisymmetric>(std::span<const double>, std::span<const double>, Sector);
-template double outline_volume<ThreeDimensional>(std::span<const double>, std::span<const double>, Sector);
-template Spread spread_of(const Particles<PlaneStrain>&, std::span<const double>, double);
-template Spread spread_of(const Particles<Axisymmetric>&, std::span<const double>, double);
-template Spread spread_of(const Particles<ThreeDimensional>&, std::span<const double>, double);
+template decltype(surface_profiles<PlaneStrain>) surface_profiles<PlaneStrain>;
+template decltype(surface_profiles<Axisymmetric>) surface_profiles<Axisymmetric>;
+template decltype(surface_profiles<ThreeDimensional>) surface_profiles<ThreeDimensional>;
+template decltype(outline<PlaneStrain>) outline<PlaneStrain>;
+template decltype(outline<Axisymmetric>) outline<Axisymmetric>;
+template decltype(outline<ThreeDimensional>) outline<ThreeDimensional>;
+template decltype(outline_volume<PlaneStrain>) outline_volume<PlaneStrain>;
+template decltype(outline_volume<Axisymmetric>) outline_volume<Axisymmetric>;
+template decltype(outline_volume<ThreeDimensional>) outline_volume<ThreeDimensional>;
+template decltype(spread_of<PlaneStrain>) spread_of<PlaneStrain>;
+template decltype(spread_of<Axisymmetric>) spread_of<Axisymmetric>;
+template decltype(spread_of<ThreeDimensional>) spread_of<ThreeDimensional>;
 
 } // namespace host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an engineer reads off a deposit: its outline, height, front, volume, void ratios.
+// Measures of a deposit: outline, height, front, volume, and the spread of a quantity such as the void ratio.
 #pragma once
 #include "host/engine/particles.hpp"
 #include "host/scene.hpp"
@@ -8,21 +8,21 @@
 
 namespace host {
 
-/// Radii (plane strain: horizontal coordinates) at which an outline is sampled, m. Those that begin below 0 are of a
-/// column without symmetry.
+/// Radii (plane strain: horizontal coordinates) at which an outline is sampled, m. Without a plane of symmetry `smallest`
+/// is below 0.
 std::vector<double> outline_radii(double spacing, double largest, double smallest = 0);
 
 /// Heights of the surface, m, profiles[azimuth][radius]; one profile in the plane.
 using Profiles = std::vector<std::vector<double>>;
 
 /// Height of the surface over each radius: the uppermost point where the particles fill half of the
-/// kernel, sum_j V_j W = 1/2 with images across planes of symmetry and floor, so single grains in flight do
-/// not count. In three dimensions along eight azimuths in each quarter of the circle.
+/// kernel, sum_j V_j W = 1/2 with images across planes of symmetry and the floor at height 0, so that single grains in
+/// flight do not count. In three dimensions along eight azimuths in each quarter of the circle.
 template <class Geometry>
 Profiles surface_profiles(const Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
                           std::span<const double> radii, Sector sector = Sector::full);
 
-/// Mean over the azimuths: the outline.
+/// The outline: the mean over the azimuths.
 std::vector<double> mean_profile(const Profiles& profiles);
 
 /// The mean of the surface profiles.

@@ -27,11 +27,11 @@ PairSide<Geometry, Lane> gather_cluster(const Records<Geometry>& records, int fi
   return side;
 }
 
-/// Adds `count` neighbours.
+/// Adds `count` neighbours and multiplies the sums by the kernel's scale.
 template <bool diffuses, class Geometry, int D>
 void add_pairs(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i, const Records<Geometry>& records,
                const int* neighbour, int count, PairSums<Geometry, Lane>& sums) {
-  constexpr int ahead = 8;
+  constexpr int ahead = 8; // pairs at a time, so that their square roots and divisions overlap
   PairFactors<Lane> factors[ahead];
   for (int first = 0; first < count; first += ahead, neighbour += ahead) {
     const int n = std::min(ahead, count - first);
@@ -66,37 +66,8 @@ ClusterForces<Geometry> forces_on(const Particles<Geometry>& p, const Kernel<Geo
           diffusion_rate(own, inside, load(&p.diffusivity[first]), medium)};
 }
 
-template <class Geometry>
-void update_acceleration(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
-                         const NeighbourLists& lists, const Records<Geometry>& records, const Scene& scene) {
-  const Medium medium = medium_of(scene);
-#pragma omp parallel for schedule(static)
-  for (int c = 0; c < p.clusters(); ++c) {
-    const auto forces = forces_on(p, kernel, lists, records, medium, c);
-    for (int a = 0; a < Geometry::dimension; ++a) {
-      store(&p.stress_acceleration[a][c * lanes], forces.stress[a]);
-      store(&p.viscous_acceleration[a][c * lanes], forces.viscous[a]);
-      store(&p.wall_acceleration[a][c * lanes], forces.wall[a]);
-    }
-    for (int s = 0; s < Geometry::stress_components; ++s)
-      store(&p.stress_diffusion[s][c * lanes], forces.diffusion[s]);
-  }
-}
-
-template ClusterForces<PlaneStrain> forces_on(const Particles<PlaneStrain>&, const Kernel<2>&,
-                                              const NeighbourLists&, const Records<PlaneStrain>&,
-                                              const Medium&, int);
-template void update_acceleration(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&,
-                                  const Records<PlaneStrain>&, const Scene&);
-template ClusterForces<Axisymmetric> forces_on(const Particles<Axisymmetric>&, const Kernel<2>&,
-                                               const NeighbourLists&, const Records<Axisymmetric>&,
-                                               const Medium&, int);
-template void update_acceleration(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&,
-                                  const Records<Axisymmetric>&, const Scene&);
-template ClusterForces<ThreeDimensional> forces_on(const Particles<ThreeDimensional>&, const Kernel<3>&,
-                                                   const NeighbourLists&, const Records<ThreeDimensional>&,
-                                                   const Medium&, int);
-template void update_acceleration(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&,
-                                  const Records<ThreeDimensional>&, const Scene&);
+template decltype(forces_on<PlaneStrain>) forces_on<PlaneStrain>;
+template decltype(forces_on<Axisymmetric>) forces_on<Axisymmetric>;
+template decltype(forces_on<ThreeDimensional>) forces_on<ThreeDimensional>;
 
 } // namespace host

@@ -2,27 +2,22 @@
 // The forces on a cluster of particles, by its neighbour list; the sums are in host/scheme/pair.hpp and forces.hpp.
 #pragma once
 #include "host/engine/neighbours.hpp"
-#include "host/scene.hpp"
 #include "host/scheme/forces.hpp"
 
 namespace host {
 
-/// What acts on the particles of one cluster: accelerations, m/s2, and the rate of stress diffusion, Pa/s.
+/// Accelerations of the particles of one cluster by stress, viscosity and walls, m/s2, and the rate of stress diffusion,
+/// Pa/s. Gravity and friction are not in them.
 template <class Geometry> struct ClusterForces {
   static constexpr int D = Geometry::dimension, S = Geometry::stress_components;
   std::array<Lane, D> stress, viscous, wall;
   std::array<Lane, S> diffusion;
 };
 
-/// Of cluster c, from both records: by stress, by viscosity and by walls. Gravity and friction are not in them.
+/// Forces on cluster c, from both records.
 template <class Geometry>
 ClusterForces<Geometry> forces_on(const Particles<Geometry>& particles,
                                   const Kernel<Geometry::dimension>& kernel, const NeighbourLists& lists,
                                   const Records<Geometry>& records, const Medium& medium, int c);
-
-/// The same of all particles, kept.
-template <class Geometry>
-void update_acceleration(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
-                         const NeighbourLists& lists, const Records<Geometry>& records, const Scene& scene);
 
 } // namespace host

@@ -41,7 +41,7 @@ template <int D> struct CellGrid {
 
 constexpr int largest_grid = 1 << 22;
 
-/// The row of cells after that of `cell` in the box `from` to `to`; the last coordinate counts the box out.
+/// Moves `cell` to the next row of cells in the box `from` to `to`; at the end its last coordinate is beyond `to`.
 void next_row(std::array<int, 2>& cell, const std::array<int, 2>&, const std::array<int, 2>&) {
   ++cell[1];
 }
@@ -68,7 +68,7 @@ CellGrid<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, cons
       upper[a] = std::max(upper[a], records.motion[j].position[a]);
     }
   double cells = 0;
-  for (grid.size = size;; grid.size *= 2) { // a few stray particles far away must not cost memory
+  for (grid.size = size;; grid.size *= 2) { // few particles far away would need many empty cells
     cells = 1;
     for (int a = 0; a < D; ++a) cells *= std::floor((upper[a] - grid.lower[a]) / grid.size) + 1;
     if (cells <= largest_grid) break;
@@ -88,12 +88,8 @@ CellGrid<Geometry::dimension> sort_into_cells(const Particles<Geometry>& p, cons
   return grid;
 }
 
-} // namespace
-
-namespace {
-
-/// Particles by their place on a Morton curve of square cells. Ties by creation order, so that the result
-/// depends on nothing but the positions.
+/// Particles in the order of a Morton curve of square cells; in one cell in the order of their creation, so that the
+/// result depends on the positions alone.
 std::vector<int> spatial_order(const std::array<Array, 2>& position, const std::vector<int>& id, int count,
                                double cell) {
   constexpr double most = double((1u << 31) - 1);
@@ -113,8 +109,9 @@ std::vector<int> spatial_order(const std::array<Array, 2>& position, const std::
   return sorted;
 }
 
-/// Halves the particles again and again across the longest side of their box, down to clusters of eight: boxes
-/// around clusters are smaller by a tenth than with a Morton curve, and so are the lists. Ties by creation order.
+/// Halves the particles again and again across the longest side of their box, down to clusters of eight. The boxes
+/// around clusters are smaller by a tenth than with a Morton curve, and so are the lists. Particles at the same place
+/// are in the order of their creation.
 void bisect(const std::array<Array, 3>& position, const std::vector<int>& id, int* begin, int* end) {
   if (end - begin <= lanes) return std::sort(begin, end, [&](int i, int j) { return id[i] < id[j]; });
   int along = 0;
@@ -156,7 +153,7 @@ template <class Geometry> void sort_particles(Particles<Geometry>& p, double cel
   p.each_persistent(permute);
 }
 
-/// Of the eight particles of a cluster from one record, m2.
+/// Squares of the distances of a record from the eight particles of a cluster, m2.
 template <std::size_t D> static Lane distance_square(const std::array<Lane, D>& x, const double (&y)[D]) {
   Lane square{};
   for (std::size_t a = 0; a < D; ++a) square += (x[a] - y[a]) * (x[a] - y[a]);
@@ -232,20 +229,14 @@ void prune(const Particles<Geometry>& p, const Records<Geometry>& records, doubl
   }
 }
 
-template void sort_particles(Particles<PlaneStrain>&, double);
-template void sort_particles(Particles<Axisymmetric>&, double);
-template void sort_particles(Particles<ThreeDimensional>&, double);
-template void find_neighbours(const Particles<PlaneStrain>&, const Images&, const Records<PlaneStrain>&,
-                              double, NeighbourLists&);
-template void find_neighbours(const Particles<Axisymmetric>&, const Images&, const Records<Axisymmetric>&,
-                              double, NeighbourLists&);
-template void find_neighbours(const Particles<ThreeDimensional>&, const Images&,
-                              const Records<ThreeDimensional>&, double, NeighbourLists&);
-template void prune(const Particles<PlaneStrain>&, const Records<PlaneStrain>&, double, const NeighbourLists&,
-                    NeighbourLists&);
-template void prune(const Particles<Axisymmetric>&, const Records<Axisymmetric>&, double,
-                    const NeighbourLists&, NeighbourLists&);
-template void prune(const Particles<ThreeDimensional>&, const Records<ThreeDimensional>&, double,
-                    const NeighbourLists&, NeighbourLists&);
+template decltype(sort_particles<PlaneStrain>) sort_particles<PlaneStrain>;
+template decltype(sort_particles<Axisymmetric>) sort_particles<Axisymmetric>;
+template decltype(sort_particles<ThreeDimensional>) sort_particles<ThreeDimensional>;
+template decltype(find_neighbours<PlaneStrain>) find_neighbours<PlaneStrain>;
+template decltype(find_neighbours<Axisymmetric>) find_neighbours<Axisymmetric>;
+template decltype(find_neighbours<ThreeDimensional>) find_neighbours<ThreeDimensional>;
+template decltype(prune<PlaneStrain>) prune<PlaneStrain>;
+template decltype(prune<Axisymmetric>) prune<Axisymmetric>;
+template decltype(prune<ThreeDimensional>) prune<ThreeDimensional>;
 
 } // namespace host

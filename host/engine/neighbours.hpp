@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles sorted in space and one neighbour list for each cluster of eight. Lists reach beyond the support by a skin
-// and hold until a particle has moved half of it: outer lists with a wide skin, which take long to find, and what
-// pair loops read, pruned from them every few steps to a narrow one.
+// and are valid until a particle has moved half of it. Outer lists have a wide skin and take long to find; from these
+// the lists that the pair loops read are pruned every few steps, with a narrow skin.
 #pragma once
 #include "host/walls/mirrors.hpp"
 
@@ -25,9 +25,8 @@ template <class Geometry>
 void find_neighbours(const Particles<Geometry>& particles, const Images& images,
                      const Records<Geometry>& records, double reach, NeighbourLists& lists);
 
-/// Keeps of `outer`, in its order, what is within `reach` of one of the particles now. What is left out adds exactly
-/// nothing to the sums of pairs as long as it stays beyond the support, so that results do not depend on when this is
-/// done.
+/// Copies from `outer`, in its order, the neighbours that are now within `reach` of one of the particles. A neighbour
+/// beyond the support adds exactly zero to the sums of pairs, so that results do not depend on when lists are pruned.
 template <class Geometry>
 void prune(const Particles<Geometry>& particles, const Records<Geometry>& records, double reach,
            const NeighbourLists& outer, NeighbourLists& lists);

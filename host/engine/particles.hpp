@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particle data, structure of arrays, split by lifetime. Arrays are padded to a multiple of `lanes`
-// and kept sorted in space, so that lanes of one cluster are neighbours in space.
+// Particle data, an array for each quantity, split by lifetime. Arrays are padded to a multiple of `lanes` and sorted in
+// space, so that the eight particles of a cluster are neighbours.
 #pragma once
 #include "host/scheme/lane.hpp"
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ namespace host {
 
 using Array = std::vector<double, Eigen::aligned_allocator<double>>;
 
-/// Where padding lanes stand: outside every support, at finite distance from everything.
+/// Coordinate of the padding, m: outside of every support, and finite.
 inline constexpr double nowhere = 1e30;
 
 template <class Geometry> struct Particles {
@@ -21,7 +21,7 @@ template <class Geometry> struct Particles {
   int padded() const { return (count + lanes - 1) / lanes * lanes; }
   int clusters() const { return padded() / lanes; }
 
-  // Persistent: what a restart must hold.
+  // Persistent: part of a checkpoint.
   std::vector<int> id; ///< order of creation
   std::array<Array, D> position, velocity;
   Array mass, density;                     ///< kg (per `depth` of plane strain: kg/m), kg/m3
@@ -29,26 +29,16 @@ template <class Geometry> struct Particles {
   std::vector<Array> state;                ///< STATEV, one array for each variable
   Array internal_energy, inelastic_energy; ///< J/kg
   Array wave_speed;                        ///< m/s
-  Array checked_square;                    ///< Pa2, square of the stress for which it was found
+  Array checked_square;                    ///< Pa2, square of the stress for which the wave speed was found
   /// F in the non-symmetric order of the VUMAT; empty unless the material asks for it (corotational.hpp).
   std::vector<Array> deformation_gradient;
 
   // Per step: written by one stage, read by the next.
   Array diffusivity; ///< m2/s, of stress
 
-  // The same of stages that are run one by one. A step, which does all that concerns a particle at once
-  // (passes.hpp), keeps them for a few particles only; the arrays are empty there.
-  std::array<Array, D * D> velocity_gradient; ///< 1/s, component a * D + b is d v_a / d x_b
-  std::array<Array, D> stress_acceleration, viscous_acceleration, wall_acceleration; ///< m/s2
-  std::array<Array, S> stress_diffusion;                                             ///< Pa/s
-
-  /// Calls `f(array)` for each persistent array; what is listed here is sorted, stored and restored.
+  /// Calls `f(array)` for each persistent array: all that is sorted, stored and restored.
   template <class F> void each_persistent(F&& f) { each_persistent_of(*this, f); }
   template <class F> void each_persistent(F&& f) const { each_persistent_of(*this, f); }
-
-  /// Calls `f(array)` for each array of stages that are run one by one.
-  template <class F> void each_of_stages(F&& f) { each_of_stages_of(*this, f); }
-  template <class F> void each_of_stages(F&& f) const { each_of_stages_of(*this, f); }
 
   /// Sizes all arrays for `n` particles and `state_variables`, filled with zeros.
   void resize(int n, int state_variables) {
@@ -57,7 +47,6 @@ template <class Geometry> struct Particles {
     state.resize(state_variables);
     each_persistent([&](Array& a) { a.assign(padded(), 0.0); });
     diffusivity.assign(padded(), 0.0);
-    each_of_stages([&](Array& a) { a.assign(padded(), 0.0); });
     for (int i = count; i < padded(); ++i) {
       for (int a = 0; a < D; ++a) position[a][i] = nowhere;
       density[i] = mass[i] = wave_speed[i] = 1;
@@ -74,12 +63,6 @@ private:
     for (auto& a : p.stress) f(a);
     for (auto& a : p.state) f(a);
     for (auto& a : p.deformation_gradient) f(a);
-  }
-  template <class Self, class F> static void each_of_stages_of(Self& p, F&& f) {
-    for (auto& a : p.velocity_gradient) f(a);
-    for (auto* group : {&p.stress_acceleration, &p.viscous_acceleration, &p.wall_acceleration})
-      for (auto& a : *group) f(a);
-    for (auto& a : p.stress_diffusion) f(a);
   }
 };
 

@@ -21,40 +21,40 @@ void find_gradients(const Particles<Geometry>& p, const Kernel<Geometry::dimensi
   }
 }
 
-/// Largest component of the gradients, 1/s; what is no number is left out.
+/// Writes the stress records of a block. Returns the largest component of the gradients, 1/s, of those that are numbers.
 template <class Geometry>
-double show_block(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first, int count,
-                  const Numerics& numerics, double h, Records<Geometry>& records) {
+double write_block_records(Particles<Geometry>& p, const BlockGradient<Geometry>& gradient, int first,
+                           int count, const Medium& medium, double h, Records<Geometry>& records) {
   ClusterGradient<Geometry> slope;
-  Lane steepest{};
+  Lane most{};
   for (int k = 0; k < count; k += lanes) {
     for (std::size_t e = 0; e < slope.size(); ++e) {
       slope[e] = load(&gradient.component[e][k]);
-      steepest = larger(larger(slope[e], -slope[e]), steepest);
+      most = larger(larger(slope[e], -slope[e]), most);
     }
-    show_stress_of(p, first + k, std::min(lanes, count - k), slope, numerics, h, records);
+    write_stress_records(p, first + k, std::min(lanes, count - k), slope, medium, h, records);
   }
-  return largest(steepest);
+  return largest(most);
 }
 
 } // namespace
 
 template <class Geometry>
 double deform(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel, const NeighbourLists& lists,
-              const Scene& scene, const Increment& increment, StressBlocks& blocks,
-              Records<Geometry>& records) {
+              const Medium& medium, const Material& material, const Increment& increment,
+              StressBlocks& blocks, Records<Geometry>& records) {
   const double start = increment.total_time - increment.dt;
-  Failure failure;
-  for_each_block(p, scene.material, blocks, [&](int first, VumatBlock& b) {
+  FirstFailure failure;
+  for_each_block(p, material, blocks, [&](int first, VumatBlock& b) {
     BlockGradient<Geometry> gradient;
     find_gradients(p, kernel, lists, records, first, b.points, gradient);
     check_strain(p, gradient, first, b.points, start, increment.dt);
-    advance_stress(p, scene.material, increment, blocks, gradient, first, b, failure);
-    blocks.steepest[first / StressBlocks::points] =
-        show_block(p, gradient, first, b.points, scene.numerics, kernel.h, records);
+    advance_stress(p, material, increment, blocks, gradient, first, b, failure);
+    blocks.largest_gradient[first / StressBlocks::points] =
+        write_block_records(p, gradient, first, b.points, medium, kernel.h, records);
   });
-  if (failure.bad) report_failure(p, scene.material, failure, blocks.failure_state);
-  return std::ranges::max(blocks.steepest);
+  if (failure.bad) report_failure(p, material, failure, blocks.failure_state);
+  return std::ranges::max(blocks.largest_gradient);
 }
 
 template <class Geometry>
@@ -81,18 +81,18 @@ ClusterMotion move(Particles<Geometry>& p, const Kernel<Geometry::dimension>& ke
   return all;
 }
 
-template double deform(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
-                       const Increment&, StressBlocks&, Records<PlaneStrain>&);
+template double deform(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Medium&,
+                       const Material&, const Increment&, StressBlocks&, Records<PlaneStrain>&);
 template ClusterMotion move(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
                             const std::vector<Mirror>&, double, double, const Records<PlaneStrain>&,
                             std::vector<ClusterMotion>&);
-template double deform(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
-                       const Increment&, StressBlocks&, Records<Axisymmetric>&);
+template double deform(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Medium&,
+                       const Material&, const Increment&, StressBlocks&, Records<Axisymmetric>&);
 template ClusterMotion move(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
                             const std::vector<Mirror>&, double, double, const Records<Axisymmetric>&,
                             std::vector<ClusterMotion>&);
-template double deform(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&, const Scene&,
-                       const Increment&, StressBlocks&, Records<ThreeDimensional>&);
+template double deform(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&, const Medium&,
+                       const Material&, const Increment&, StressBlocks&, Records<ThreeDimensional>&);
 template ClusterMotion move(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&,
                             const Scene&, const std::vector<Mirror>&, double, double,
                             const Records<ThreeDimensional>&, std::vector<ClusterMotion>&);

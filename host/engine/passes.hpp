@@ -8,12 +8,13 @@
 
 namespace host {
 
-/// Velocity gradient, stress and `records.stress` of all particles, from `records.motion`. Throws as check_strain and
-/// update_stress do. Returns the largest component of all gradients, 1/s.
+/// Velocity gradient, stress and `records.stress` of all particles, from `records.motion`. Throws as check_strain does,
+/// and std::runtime_error with particle, time, stress and strain increment if the material returns a number that is not
+/// finite or reports a failure. Returns the largest component of all gradients, 1/s.
 template <class Geometry>
 double deform(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
-              const NeighbourLists& lists, const Scene& scene, const Increment& increment,
-              StressBlocks& blocks, Records<Geometry>& records);
+              const NeighbourLists& lists, const Medium& medium, const Material& material,
+              const Increment& increment, StressBlocks& blocks, Records<Geometry>& records);
 
 /// Forces, velocities and positions of all particles, from both records; stress diffuses. `motions` is room for
 /// the results of blocks. Returns their sum in the order of the blocks, the same for any number of threads.

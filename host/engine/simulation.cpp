@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/engine/simulation.hpp"
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/material/corotational.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/walls/wall_contact.hpp"
@@ -163,22 +163,25 @@ template <class Geometry> Simulation<Geometry> start_simulation(const Scene& sce
   Simulation<Geometry> s{.scene = scene,
                          .kernel = Kernel<Geometry::dimension>(
                              scene.numerics.smoothing_length * scene.spacing, scene.numerics.kernel)};
-  s.particles = make_column<Geometry>(scene);
+  s.particles = initial_particles<Geometry>(scene);
   s.mirrors = scene_mirrors(scene);
   s.walls = all_walls(scene);
   s.loads.resize(s.walls.size());
   if (!scene.walls.empty()) find_surfaces(s.walls, scene.geometry, 0, 0, s.surfaces);
   s.blocks = make_stress_blocks(scene.material, s.particles, scene.spacing);
-  s.blocks.loosest = 0.5 * scene.bulk_density;
+  s.blocks.dispersed_density = 0.5 * scene.bulk_density;
   s.blocks.failure_state = scene.failure_state;
-  s.blocks.tolerance = scene.numerics.wave_speed_tolerance;
+  s.blocks.wave_speed_tolerance = scene.numerics.wave_speed_tolerance;
   if (scene.material.frame == Frame::green_naghdi) carry_deformation(s.particles);
   // The data check comes first, with initial stress and state in place; its answer is thrown away.
   update_wave_speed(s.particles, scene.material, s.blocks);
-  // An increment without strain, so that the material's own initial state is there from the start.
+  // An increment without strain, so that the material's own initial state is there from the start: particles without
+  // neighbours have no velocity gradient.
   constexpr double instant = 1e-12; // s
-  update_stress(s.particles, scene.material, {instant, instant, instant}, s.blocks);
-  s.particles.each_of_stages([](Array& a) { Array().swap(a); }); // a step needs none
+  const std::vector<int> none(s.particles.clusters(), 0);
+  s.records.stress.resize(s.particles.padded());
+  deform(s.particles, s.kernel, {0, {}, none, none}, medium_of(scene), scene.material,
+         {instant, instant, instant}, s.blocks, s.records);
   s.initial_potential_energy = potential_energy(s.particles, scene.gravity);
   return s;
 }
@@ -204,10 +207,9 @@ template <class Geometry> Memory memory_of(const Simulation<Geometry>& s) {
   Memory memory;
   const auto count = [&](const Array& array) { memory.data += bytes(array); };
   s.particles.each_persistent(count);
-  s.particles.each_of_stages(count);
   count(s.particles.diffusivity);
   memory.data += bytes(s.particles.id) + bytes(s.records.motion) + bytes(s.records.stress) +
-                 bytes(s.images.list) + bytes(s.blocks.due) + bytes(s.motions);
+                 bytes(s.images.list) + bytes(s.blocks.outdated) + bytes(s.motions);
   for (const NeighbourLists* lists : {&s.outer_lists, &s.lists})
     memory.lists += bytes(lists->entries) + bytes(lists->interior) + bytes(lists->total);
   return memory;
@@ -218,7 +220,8 @@ template <class Geometry> void step(Simulation<Geometry>& s) {
   timed(s, Stage::wave_speed, [&] { choose_step(s); });
   timed(s, Stage::deformation, [&] {
     const Increment increment{s.time + s.dt, s.time + s.dt, s.dt};
-    s.steepest = deform(s.particles, s.kernel, s.lists, s.scene, increment, s.blocks, s.records);
+    s.steepest = deform(s.particles, s.kernel, s.lists, medium_of(s.scene), s.scene.material, increment,
+                        s.blocks, s.records);
     reflect_stress(s.images, s.mirrors, s.records);
     reflect_wall_stress(s.images, s.surfaces, s.mirrors.size(), s.scene, s.records);
   });

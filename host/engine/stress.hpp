@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stress of all particles by the material: strain increment and spin from the velocity gradient, old
-// stress turned with the material, the VUMAT called in blocks, the answer checked.
+// Stress of particles by the material, in blocks: strain increment and rotation from the velocity gradient, old stress
+// rotated with the material, one call of the VUMAT, its results checked.
 #pragma once
 #include "host/engine/particles.hpp"
 #include "host/engine/records.hpp"
@@ -10,73 +10,55 @@ namespace host {
 
 /// Velocity gradients of the particles of a block, 1/s, component a * D + b of particle k at [a * D + b][k].
 template <class Geometry> struct BlockGradient {
-  static constexpr int points = 64; ///< per block, fixed: results may not depend on the threads
+  static constexpr int points = 64; ///< as in StressBlocks
   alignas(sizeof(Lane)) double component[Geometry::dimension * Geometry::dimension][points];
 };
 
-/// One block for each thread and one for the particles left over, allocated once.
+/// One block for each thread and one for the particles left over, allocated once, and what all of them need.
 struct StressBlocks {
-  static constexpr int points = 64; ///< per call
-  int failure_state = -1;           ///< position in STATEV that is negative after a failed update; -1: none
-  double spacing = 0;               ///< m, the characteristic length of a particle
-  double loosest = 0; ///< kg/m3, below it a particle that bears nothing is strained no further apart
+  static constexpr int points =
+      64;                       ///< per call; fixed, so that results do not depend on the number of threads
+  int failure_state = -1;       ///< position in STATEV that is negative after a failed update; -1: none
+  double spacing = 0;           ///< m, the characteristic length of a particle
+  double dispersed_density = 0; ///< kg/m3, below it a particle under no load does not expand any further
   std::vector<VumatBlock> full, tail;
-  double tolerance = 0;         ///< relative change of stress up to which a wave speed is kept; 0: none is
-  std::vector<int> due;         ///< particles whose wave speed is asked for in this step
-  std::vector<double> steepest; ///< 1/s, for each block the largest component of its velocity gradients
+  double wave_speed_tolerance =
+      0;                     ///< relative change of stress up to which a wave speed is kept; 0: none is kept
+  std::vector<int> outdated; ///< particles whose wave speed is found anew in this step
+  std::vector<double>
+      largest_gradient; ///< 1/s, for each block the largest component of its velocity gradients
 };
 
 template <class Geometry>
 StressBlocks make_stress_blocks(const Material& material, const Particles<Geometry>& particles,
                                 double spacing);
 
-/// Failures of a pass over all particles: the one of the particle that comes first is reported.
-struct Failure;
+struct FirstFailure;
 
 /// Advances stress, state, energies and density of the particles first, first + 1, ... of `block` over `increment`.
-/// Old stress is turned by the spin of the step (exactly, so a rigid rotation leaves no error); the material
-/// sees strain in the turned frame, which serves isotropic materials. Notes a number that is not finite.
+/// Old stress is rotated by the spin of the step, exactly, so that a rigid rotation leaves no error. The material gets the
+/// strain in the axes of the end of the step, which serves isotropic materials; others ask for Frame::green_naghdi. A
+/// number that is not finite, or a failure that the material reports, is kept in `failure`.
 template <class Geometry>
 void advance_stress(Particles<Geometry>& particles, const Material& material, const Increment& increment,
                     const StressBlocks& blocks, const BlockGradient<Geometry>& gradient, int first,
-                    VumatBlock& block, Failure& failure);
+                    VumatBlock& block, FirstFailure& failure);
 
-/// The same for all particles, with the gradients and the stress diffusion that they hold. Throws
-/// std::runtime_error with particle, time, stress and strain increment if the material returns a number that is
-/// not finite.
-template <class Geometry>
-void update_stress(Particles<Geometry>& particles, const Material& material, const Increment& increment,
-                   StressBlocks& blocks);
-
-/// Elastic wave speed of each particle, sqrt(constrained modulus / density), m/s: the material's answer
-/// to a small uniaxial compression in a data check with current stress and state, which it does not keep. With
-/// a tolerance and from the second step on, only of the particles whose stress has changed by it since they were
-/// last asked, and of each at least every sixteenth step.
+/// Elastic wave speed of each particle, sqrt(constrained modulus / density), m/s. The modulus is the material's
+/// response to a small uniaxial compression in a data check with current stress and state, which keep their values. With a
+/// tolerance and from the second step on, it is found for those particles whose stress has changed by more since it was
+/// found last, and for each particle at least every sixteenth step. Throws as update_stresses does.
 template <class Geometry>
 void update_wave_speed(Particles<Geometry>& particles, const Material& material, StressBlocks& blocks,
                        long step = 0);
 
-/// Speed of the artificial viscosity, m/s: alpha c + beta h |grad v|, at most c / 2. The second term damps
-/// noise as it arises, by strain; the first, which alone acts in a deposit at rest, is small, for with it
-/// the zero-energy modes of the pair sums would hold slopes up that creep down later.
-template <class Real>
-Real damping_speed(const Numerics& numerics, double h, const Real& wave_speed, const Real& gradient_norm) {
-  return smaller(0.5 * wave_speed,
-                 numerics.viscosity * wave_speed + numerics.flow_viscosity * h * gradient_norm);
-}
-
 /// Velocity gradients of a cluster, 1/s.
 template <class Geometry> using ClusterGradient = std::array<Lane, Geometry::dimension * Geometry::dimension>;
 
-/// Fills `records.stress` and the diffusivity of stress of the `used` particles first, first + 1, ... of a cluster.
+/// Writes `records.stress` and the diffusivity of stress of the `used` particles first, first + 1, ... of a cluster.
 template <class Geometry>
-void show_stress_of(Particles<Geometry>& particles, int first, int used,
-                    const ClusterGradient<Geometry>& gradient, const Numerics& numerics,
-                    double smoothing_length, Records<Geometry>& records);
-
-/// The same for all particles (not of the images).
-template <class Geometry>
-void show_stress(Particles<Geometry>& particles, const Scene& scene, double smoothing_length,
-                 Records<Geometry>& records);
+void write_stress_records(Particles<Geometry>& particles, int first, int used,
+                          const ClusterGradient<Geometry>& gradient, const Medium& medium,
+                          double smoothing_length, Records<Geometry>& records);
 
 } // namespace host

@@ -20,15 +20,15 @@ std::array<char, vumat::name_length> padded_upper(const std::string& name) {
   return out;
 }
 
-/// Argument 7: an array since ABAQUS 2023, whose first entry keeps the old meaning (annealing). Then integration
-/// point, layer, section point, the flag of an effective modulus, and where the element numbers start, from 1.
-void put_info(VumatBlock& b) {
+/// Sets argument 7, an array since ABAQUS 2023: annealing (its meaning before), integration point, layer, section point,
+/// the flag of an effective modulus, the position from 1 of the first element number; then the element numbers.
+void set_info(VumatBlock& b) {
   constexpr std::array<int, 8> head{0, 1, 1, 1, 0, 9, 0, 0};
   std::copy(head.begin(), head.end(), b.info.data());
   std::copy(b.elements.begin(), b.elements.end(), b.info.data() + head.size());
 }
 
-/// Outputs before a call, and the copies that a subroutine may have overwritten in the last one.
+/// Sets outputs before a call, and the copies of inputs that a subroutine may have overwritten in the last one.
 void preset(const Material& material, const Increment& increment, VumatBlock& b) {
   std::copy(b.state_old.begin(), b.state_old.end(), b.state_new.begin());
   std::copy(b.internal_energy_old.begin(), b.internal_energy_old.end(), b.internal_energy_new.begin());
@@ -37,13 +37,13 @@ void preset(const Material& material, const Increment& increment, VumatBlock& b)
   std::fill(b.dt.begin(), b.dt.end(), increment.dt);
   std::copy(material.properties.begin(), material.properties.end(), b.constants.begin());
   std::copy(b.name.begin(), b.name.end(), b.passed_name.data());
-  put_info(b);
+  set_info(b);
 }
 
 void invoke(const Material& material, const Increment& increment, VumatBlock& b) {
   int direct = 3, shear = b.shear_components, states = b.state_variables, fields = 0;
   int nblock = b.points, constants = int(b.constants.size());
-  // None is const: a subroutine may overwrite them.
+  // Copies that are not const, since a subroutine may overwrite them.
   double step_time = increment.step_time, total_time = increment.total_time;
   material.library.call(&nblock, &direct, &shear, &states, &fields, &constants, b.info.data(), &step_time,
                         &total_time, b.dt.data(), b.passed_name.data(), b.coordinates.data(),
@@ -56,12 +56,12 @@ void invoke(const Material& material, const Increment& increment, VumatBlock& b)
                         b.passed_name.size());
 }
 
-/// The call, with whatever leaves it as an exception turned into an error that names the material.
+/// Calls the subroutine and turns every exception into an error that names the material.
 void invoke_guarded(const Material& material, const Increment& increment, VumatBlock& b) {
   static std::mutex one_at_a_time;
   std::unique_lock lock(one_at_a_time, std::defer_lock);
   if (material.serial) lock.lock();
-  const RunningCall running(material.name, increment.total_time);
+  const RunningCall running(material.name, material.job, increment.total_time);
   try {
     invoke(material, increment, b);
   } catch (const VumatExit& exit) {
@@ -105,7 +105,7 @@ VumatBlock::VumatBlock(const Material& material, int points_, int shear)
 
 void call_vumat(const Material& material, const Increment& increment, VumatBlock& block) {
   constexpr long first_calls = 16;
-  // An odd stride: in the SPH host every other call is a data check.
+  // An odd stride, since in the SPH host every other call is a data check.
   const int stride = std::max(block.points, 8) | 1;
   preset(material, increment, block);
   const bool compared = material.may_write_inputs || block.calls < first_calls || block.calls % stride == 0;

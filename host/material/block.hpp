@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The caller's side of the VUMAT interface: arrays of one block in the order of the convention, and
-// the call. The SPH stress stage fills blocks of 64 particles, the element driver 1 to 128 points.
+// The caller's side of the VUMAT interface: arrays of one block in the order of the convention, and the call. The SPH
+// engine fills blocks of 64 particles, the element driver blocks of 1 to 128 points.
 #pragma once
 #include "host/material/guard_words.hpp"
+#include "host/material/job.hpp"
 #include "host/material/kinematics.hpp"
 #include "host/material/library.hpp"
 #include "vumat/abi.hpp"
@@ -18,7 +19,7 @@ enum class Frame {
   green_naghdi, ///< axes that turn with R of F = R U, as in ABAQUS; F and U carried
 };
 
-/// A material as a host knows it: a library, a name, numbers. Nothing of the model itself.
+/// A material as a host knows it: a library, a name and numbers.
 struct Material {
   VumatLibrary library;
   std::string name;               ///< `cmname`; passed in upper case
@@ -27,6 +28,7 @@ struct Material {
   Frame frame = Frame::jaumann;
   bool serial = false;           ///< not thread safe: one call at a time, blocks in order
   bool may_write_inputs = false; ///< its inputs are restored after each call instead of refused
+  Job job{};                     ///< the run it is called in
 };
 
 /// Times of one increment, s; `step_time` and `total_time` at its end.
@@ -62,8 +64,8 @@ struct VumatBlock {
   std::vector<double> input_copy; ///< of the last call that was compared
 };
 
-/// Calls `f(name, array, is_input)` for all arrays of a block, by their names in ABAQUS. What a subroutine may
-/// overwrite without harm (dt) is no input.
+/// Calls `f(name, array, is_input)` for all arrays of a block, by their names in ABAQUS. dt, which a subroutine may
+/// overwrite without harm, is not counted as an input.
 template <class Block, class F> void each_array(Block& b, F&& f) {
   f("coordMp", b.coordinates, true);
   f("charLength", b.char_length, true);
@@ -90,12 +92,12 @@ template <class Block, class F> void each_array(Block& b, F&& f) {
   f("dt", b.dt, false);
 }
 
-/// Calls the material for all points of the block. Scalars are copies; new state and energies are preset to the
-/// old ones, new stress to marks, so that what a subroutine leaves unwritten is either right or found.
-/// At `total_time` = 0 this is the data check: the answer is elastic and the state must be thrown away.
-/// Throws std::runtime_error, naming the material, if the subroutine throws, asks for the end (xplb_exit), or
-/// writes beyond an array or to a constant (looked for after each call, beyond the nearest words only after some)
-/// or to another input (after some: the first 16 of a block, and then one call in as many as it has points).
+/// Calls the material for all points of the block. New state and energies are set to the old ones before, new stress to
+/// NaNs of a known pattern: what a subroutine does not write is then right, or found by first_failure. At `total_time` = 0
+/// this is the data check, with an elastic response and a state that is not to be used.
+/// Throws std::runtime_error, naming the material, if the subroutine throws, asks for the end (xplb_exit), writes beyond
+/// an array or to a constant (checked after each call, further than 8 words beyond after some), or to another input
+/// (checked after the first 16 calls of a block, then after one call in as many as it has points).
 void call_vumat(const Material& material, const Increment& increment, VumatBlock& block);
 
 } // namespace host

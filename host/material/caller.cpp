@@ -8,7 +8,6 @@
 namespace drivers {
 namespace {
 
-/// Tensor of the six components; weights of a double contraction.
 Eigen::Matrix3d tensor(const Vector6& v) {
   return Eigen::Matrix3d{{v[0], v[3], v[5]}, {v[3], v[1], v[4]}, {v[5], v[4], v[2]}};
 }
@@ -30,18 +29,20 @@ Vector6 components(const Eigen::Matrix3d& t) {
 constexpr int shear = 3; // components
 using Six = std::span<const double, 6>;
 
-void pack_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
+/// Sets F, U and spin of point k.
+void set_motion(const host::Kinematics& motion, int k, host::VumatBlock& b) {
   const int n = b.points;
-  host::put_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
-  host::put_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
-  host::put_general(motion.gradient_old, k, n, shear, b.gradient_old);
-  host::put_general(motion.gradient_new, k, n, shear, b.gradient_new);
+  host::set_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
+  host::set_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
+  host::set_general(motion.gradient_old, k, n, shear, b.gradient_old);
+  host::set_general(motion.gradient_new, k, n, shear, b.gradient_new);
   b.kept_gradient.resize(n);
   b.kept_gradient[k] = motion.gradient_new;
   for (int s = 0; s < shear; ++s) b.spin_increment[s * n + k] = motion.spin[s];
 }
 
-void pack_increment(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
+/// Sets strain increment, stress, state, density and energies of point k.
+void set_point(const PointState& from, const Vector6& increment, int k, host::VumatBlock& b) {
   host::pack_point(Six(from.stress.data(), 6), Six(increment.data(), 6), from.state, k, b);
   // The convention's density is that in the middle of the increment.
   b.density[k] = from.initial_density * std::exp(volumetric_strain(from.strain + 0.5 * increment));
@@ -50,8 +51,9 @@ void pack_increment(const PointState& from, const Vector6& increment, int k, hos
   b.char_length[k] = 1; // m; one element of unit size
 }
 
-PointState unpacked_answer(const PointState& from, const Vector6& increment, double dt, int k,
-                           const host::VumatBlock& b) {
+/// The state of point k after a call.
+PointState state_after(const PointState& from, const Vector6& increment, double dt, int k,
+                       const host::VumatBlock& b) {
   PointState to = from;
   host::unpack_stress(b, k, std::span<double, 6>(to.stress.data(), 6));
   host::unpack_state(b, k, to.state);
@@ -106,9 +108,9 @@ host::VumatBlock& MaterialCaller::block(int points) {
 
 void MaterialCaller::pack(const PointState& from, const Vector6& increment, int k,
                           host::VumatBlock& b) const {
-  pack_increment(from, increment, k, b);
+  set_point(from, increment, k, b);
   if (material.frame == host::Frame::green_naghdi)
-    pack_motion(host::strained(from.gradient, -tensor(increment)), k, b);
+    set_motion(host::motion_by_strain(from.gradient, -tensor(increment)), k, b);
 }
 
 void MaterialCaller::call(const host::Increment& increment, std::size_t first, host::VumatBlock& b) {
@@ -138,7 +140,7 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
     const double end = start(first).time + dt;
     call({end, end, dt}, first, b);
     for (int k = 0; k < n; ++k) {
-      answers.push_back(unpacked_answer(start(first + k), increments[first + k], dt, k, b));
+      answers.push_back(state_after(start(first + k), increments[first + k], dt, k, b));
       if (material.frame == host::Frame::green_naghdi) answers.back().gradient = b.kept_gradient[k];
     }
   }
@@ -146,13 +148,13 @@ std::vector<PointState> MaterialCaller::respond(std::span<const PointState> from
 }
 
 PointState MaterialCaller::follow(const PointState& from, const host::Kinematics& motion, double dt) {
-  host::VumatBlock b(material, 1, shear); // not one of those that show unity
+  host::VumatBlock b(material, 1, shear); // F and U of the blocks that are kept must stay unity
   const Vector6 increment = -components(motion.strain);
-  pack_increment(from, increment, 0, b);
-  pack_motion(motion, 0, b);
+  set_point(from, increment, 0, b);
+  set_motion(motion, 0, b);
   const double end = from.time + dt;
   call({end, end, dt}, 0, b);
-  auto to = unpacked_answer(from, increment, dt, 0, b);
+  auto to = state_after(from, increment, dt, 0, b);
   to.gradient = motion.gradient_new;
   return to;
 }
@@ -164,7 +166,7 @@ Matrix6 MaterialCaller::elastic_stiffness(const PointState& from) {
   call({0, 0, 1}, 0, b);
   Matrix6 stiffness;
   for (int k = 0; k < 6; ++k)
-    stiffness.col(k) = (unpacked_answer(from, Vector6::Zero(), 0, k, b).stress - from.stress) / probe;
+    stiffness.col(k) = (state_after(from, Vector6::Zero(), 0, k, b).stress - from.stress) / probe;
   return stiffness;
 }
 

@@ -5,9 +5,9 @@
 // strains are tensor components (half the engineering shear). Stress effective, Pa. Strain is the
 // sum of the increments given to the material (logarithmic for coaxial paths).
 //
-// All of it is in the corotational frame, whose axes turn with R of F = R U. A point that is led by stress and
-// strain has no other axes: R stays, F moves by U alone (host/material/kinematics.hpp, strained). F and U are
-// followed for materials of Frame::green_naghdi, others are shown unity.
+// All components are in the corotational frame, whose axes rotate with R of F = R U. A point that is led by stress and
+// strain has no other axes: R stays and F changes by U alone (motion_by_strain in host/material/kinematics.hpp). F and U
+// are followed for materials of Frame::green_naghdi; others get the identity.
 #pragma once
 #include "host/material/reproducer.hpp"
 #include <Eigen/Core>
@@ -21,7 +21,7 @@ namespace drivers {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// What a point carries from one increment to the next.
+/// The state of a point between two increments.
 struct PointState {
   Vector6 stress = Vector6::Zero(), strain = Vector6::Zero();
   std::vector<double> state;                        ///< STATEV
@@ -31,7 +31,7 @@ struct PointState {
   host::Tensor gradient = host::Tensor::Identity(); ///< F, base axes
 };
 
-/// Whether stress, state and energies are numbers.
+/// True if stress, state and energies are finite.
 bool is_finite(const PointState& point);
 double mean_stress(const Vector6& stress);       ///< p, Pa
 double deviatoric_stress(const Vector6& stress); ///< q = sqrt(3/2 s:s), Pa
@@ -44,18 +44,18 @@ double lode_angle(const Vector6& stress);
 /// Stress of a point in base axes, R stress R^T.
 Vector6 stress_in_base_axes(const PointState& point);
 
-/// A material and the blocks it is called with, kept from call to call. One caller per thread.
+/// Calls a material, with blocks that are kept from call to call. One for each thread.
 class MaterialCaller {
 public:
   /// `failure_state`: position in STATEV, from 0, of a variable that is negative after a failed update.
   explicit MaterialCaller(host::Material material, int failure_state = -1)
       : material(std::move(material)), failure_state(failure_state) {}
 
-  /// Answers to one strain increment per point, in blocks as large as the convention allows. `from`
-  /// holds one state per increment, or a single one from which all increments start.
+  /// States after one strain increment for each point, called in blocks as large as the convention allows. `from` holds
+  /// one state for each increment, or a single one from which all increments start. `dt` in s.
   std::vector<PointState> respond(std::span<const PointState> from, std::span<const Vector6> increments,
                                   double dt);
-  /// Answer to a known motion from where the point is, whatever the material's frame.
+  /// State after a given motion, whatever the material's frame.
   PointState follow(const PointState& from, const host::Kinematics& motion, double dt);
   /// Stiffness d stress / d strain by the data check, Pa: elastic, whatever the loading direction.
   Matrix6 elastic_stiffness(const PointState& from);
@@ -64,16 +64,16 @@ public:
     return failure_state >= 0 && answer.state[failure_state] < 0;
   }
 
-  /// Whether an answer may be gone on from.
+  /// True if a state is finite and the material reports no failure.
   bool usable(const PointState& answer) const { return is_finite(answer) && !refused(answer); }
-  /// What is known of the last answer that was not usable, in one line. Writes its reproducer to `file`, unless that
-  /// is empty.
+  /// One line about the last call whose results were not usable. Writes its reproducer to `file`, unless that is empty.
   std::string evidence(const std::filesystem::path& file) const;
 
   const host::Material material;
   const int failure_state;
   long points_called = 0;
-  std::size_t failed_point = 0; ///< which of those given to `respond` the last unusable answer belongs to
+  std::size_t failed_point =
+      0; ///< index in what was given to `respond` of the point whose results were not usable last
 
 private:
   /// Calls the material with a block whose first point is number `first` of those given.

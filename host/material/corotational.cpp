@@ -43,14 +43,14 @@ void enter_corotational(const Particles<Geometry>& p, const BlockGradient<Geomet
   b.kept_gradient.resize(n);
   for (int k = 0; k < n; ++k) {
     const Tensor strain = symmetric_at(b.strain_increment, k, n, shear);
-    const auto motion = carried_along(gradient_of(p, first + k), strain + dt * spin_of(gradient, k));
+    const auto motion = motion_by_gradient(gradient_of(p, first + k), strain + dt * spin_of(gradient, k));
     const Tensor& r = motion.rotation_old;
-    put_symmetric(r.transpose() * symmetric_at(b.stress_old, k, n, shear) * r, k, n, shear, b.stress_old);
-    put_symmetric(motion.strain, k, n, shear, b.strain_increment);
-    put_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
-    put_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
-    put_general(motion.gradient_old, k, n, shear, b.gradient_old);
-    put_general(motion.gradient_new, k, n, shear, b.gradient_new);
+    set_symmetric(r.transpose() * symmetric_at(b.stress_old, k, n, shear) * r, k, n, shear, b.stress_old);
+    set_symmetric(motion.strain, k, n, shear, b.strain_increment);
+    set_symmetric(motion.stretch_old, k, n, shear, b.stretch_old);
+    set_symmetric(motion.stretch_new, k, n, shear, b.stretch_new);
+    set_general(motion.gradient_old, k, n, shear, b.gradient_old);
+    set_general(motion.gradient_new, k, n, shear, b.gradient_new);
     for (int s = 0; s < shear; ++s) b.spin_increment[s * n + k] = motion.spin[3 - shear + s]; // in plane: 21
     b.rotation_new[k] = motion.rotation_new;
     b.kept_gradient[k] = motion.gradient_new;
@@ -61,7 +61,7 @@ void leave_corotational(VumatBlock& b) {
   const int n = b.points, shear = b.shear_components;
   for (int k = 0; k < n; ++k) {
     const Tensor& r = b.rotation_new[k];
-    put_symmetric(r * symmetric_at(b.stress_new, k, n, shear) * r.transpose(), k, n, shear, b.stress_new);
+    set_symmetric(r * symmetric_at(b.stress_new, k, n, shear) * r.transpose(), k, n, shear, b.stress_new);
   }
 }
 
@@ -72,18 +72,14 @@ template <class Geometry> void keep_deformation(const VumatBlock& b, int first, 
   }
 }
 
-template void carry_deformation(Particles<PlaneStrain>&);
-template void carry_deformation(Particles<Axisymmetric>&);
-template void enter_corotational(const Particles<PlaneStrain>&, const BlockGradient<PlaneStrain>&, int,
-                                 double, VumatBlock&);
-template void enter_corotational(const Particles<Axisymmetric>&, const BlockGradient<Axisymmetric>&, int,
-                                 double, VumatBlock&);
-template void keep_deformation(const VumatBlock&, int, Particles<PlaneStrain>&);
-template void keep_deformation(const VumatBlock&, int, Particles<Axisymmetric>&);
-
-template void carry_deformation(Particles<ThreeDimensional>&);
-template void enter_corotational(const Particles<ThreeDimensional>&, const BlockGradient<ThreeDimensional>&,
-                                 int, double, VumatBlock&);
-template void keep_deformation(const VumatBlock&, int, Particles<ThreeDimensional>&);
+template decltype(carry_deformation<PlaneStrain>) carry_deformation<PlaneStrain>;
+template decltype(carry_deformation<Axisymmetric>) carry_deformation<Axisymmetric>;
+template decltype(carry_deformation<ThreeDimensional>) carry_deformation<ThreeDimensional>;
+template decltype(enter_corotational<PlaneStrain>) enter_corotational<PlaneStrain>;
+template decltype(enter_corotational<Axisymmetric>) enter_corotational<Axisymmetric>;
+template decltype(enter_corotational<ThreeDimensional>) enter_corotational<ThreeDimensional>;
+template decltype(keep_deformation<PlaneStrain>) keep_deformation<PlaneStrain>;
+template decltype(keep_deformation<Axisymmetric>) keep_deformation<Axisymmetric>;
+template decltype(keep_deformation<ThreeDimensional>) keep_deformation<ThreeDimensional>;
 
 } // namespace host

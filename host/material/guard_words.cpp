@@ -13,7 +13,7 @@ namespace {
   throw std::runtime_error(fmt::format("material {}: {}", material.name, what));
 }
 
-/// The arguments that are no arrays of reals.
+/// Calls `f(name, words)` for the arguments that are integers or text.
 template <class F> void each_of_words(const VumatBlock& block, F&& f) {
   f("jInfoArray", block.info);
   f("cmname", block.passed_name);

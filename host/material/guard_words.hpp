@@ -12,9 +12,9 @@
 
 namespace host {
 
-/// NaNs that no arithmetic makes: what is around every array, and what is in outputs that are still to be written. A
-/// number that is computed from one keeps its bits on x86, so that a subroutine that reads beyond an array or
-/// leaves an output is found out by the check for numbers.
+/// NaNs that do not result from arithmetic: guard words around every array, and the content of outputs before a call. On
+/// x86 a number computed from one of them keeps its bits, so that the check of results finds a subroutine that reads
+/// beyond an array or does not write an output, and tells which.
 inline constexpr std::uint64_t guard_bits = 0x7ff85afe5afe5afe, unwritten_bits = 0x7ff8deafdeafdeaf;
 inline const double guard_word = std::bit_cast<double>(guard_bits),
                     unwritten_word = std::bit_cast<double>(unwritten_bits);
@@ -23,8 +23,8 @@ inline bool has_bits(double x, std::uint64_t bits) {
   return std::bit_cast<std::uint64_t>(x) == bits;
 }
 
-/// An array for a subroutine: 8 guard words before it, 8 after it, and `slack` more of them, so that a subroutine
-/// that takes a block for a larger one damages nothing before it is stopped.
+/// An array for a subroutine, with 8 guard words before it and 8 + `slack` after it, so that a subroutine that assumes a
+/// larger block overwrites nothing else before it is stopped.
 class GuardedArray {
 public:
   static constexpr std::size_t guards = 8;
@@ -34,7 +34,7 @@ public:
     words.assign(size + 2 * guards + slack, guard_word);
     std::fill_n(data(), size, value);
   }
-  /// Takes the values of as many numbers.
+  /// Takes over as many values; throws std::length_error if their number differs.
   GuardedArray& operator=(const std::vector<double>& values) {
     if (values.size() != length) throw std::length_error("an array of a block keeps its size");
     std::copy(values.begin(), values.end(), begin());
@@ -54,7 +54,7 @@ public:
 
   bool intact_before() const { return intact(words.data()); }
   bool intact_after() const { return intact(data() + length); }
-  /// The slack as well.
+  /// The same with the slack.
   bool intact_far_after() const { return intact(data() + length, words.size() - guards - length); }
 
 private:
@@ -72,7 +72,7 @@ template <class Word, Word guard> class GuardedWords {
 public:
   static constexpr std::size_t guards = 16;
 
-  /// Its words are the caller's to write.
+  /// The words between the guards are to be written by the caller.
   explicit GuardedWords(std::size_t size) : words(size + 2 * guards, guard) {}
   Word* data() { return words.data() + guards; }
   std::size_t size() const { return words.size() - 2 * guards; }
@@ -93,8 +93,8 @@ using GuardedText = GuardedWords<char, '\x1a'>;
 struct Material;
 struct VumatBlock;
 
-/// Throws std::runtime_error naming material and array if a guard word next to an array or a constant of the
-/// material changed; with `far` if any guard word did.
+/// Throws std::runtime_error naming material and array if a constant of the material or one of the 8 guard words on either
+/// side of an array has changed; with `far` also if one of the slack has.
 void check_guards(const Material& material, const VumatBlock& block, bool far);
 
 /// Copies all inputs of a call into the block's `input_copy`.

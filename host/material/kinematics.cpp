@@ -103,15 +103,15 @@ Tensor rotation_of(const Tensor& gradient) {
   return r;
 }
 
-Kinematics carried_along(const Tensor& gradient_old, const Tensor& velocity_gradient_dt) {
+Kinematics motion_by_gradient(const Tensor& gradient_old, const Tensor& velocity_gradient_dt) {
   return decomposed(gradient_old, exponential(velocity_gradient_dt) * gradient_old, velocity_gradient_dt);
 }
 
-Kinematics led_to(const Tensor& gradient_old, const Tensor& gradient_new) {
+Kinematics motion_between(const Tensor& gradient_old, const Tensor& gradient_new) {
   return decomposed(gradient_old, gradient_new, logarithm(gradient_new * gradient_old.inverse()));
 }
 
-Kinematics strained(const Tensor& gradient_old, const Tensor& strain) {
+Kinematics motion_by_strain(const Tensor& gradient_old, const Tensor& strain) {
   const Tensor rotation = rotation_of(gradient_old);
   const Tensor stretch = symmetric_part(rotation.transpose() * gradient_old);
   // The spin w for which exp(strain + w) U is symmetric: none where strain and U have the same axes.

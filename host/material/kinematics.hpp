@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a VUMAT is shown of the motion of a point: deformation gradient F, right stretch U, strain and relative
+// The motion of a point as a VUMAT gets it: deformation gradient F, right stretch U, strain and relative
 // spin of one increment in the corotational frame of Green and Naghdi, whose axes turn with R = F U^-1.
 //
 // Over an increment the velocity gradient L is constant, so that F_new = exp(L dt) F_old: a rigid rotation is
@@ -25,22 +25,22 @@ struct Kinematics {
 /// exp(A), to round-off.
 Tensor exponential(const Tensor& a);
 
-/// The A of exp(A) = B next to zero. Throws std::runtime_error where B is too far from the identity: about 170
+/// The A of exp(A) = B that is next to zero. Throws std::runtime_error if B is too far from the identity: about 170
 /// degrees, or a strain of 4, in one increment.
 Tensor logarithm(const Tensor& b);
 
 /// R of F = R U, for det F > 0.
 Tensor rotation_of(const Tensor& gradient);
 
-/// From F_old with the velocity gradient times dt, in base axes.
-Kinematics carried_along(const Tensor& gradient_old, const Tensor& velocity_gradient_dt);
+/// The motion from F_old with the velocity gradient times dt, in base axes.
+Kinematics motion_by_gradient(const Tensor& gradient_old, const Tensor& velocity_gradient_dt);
 
-/// From F_old to a given F_new. Throws as logarithm().
-Kinematics led_to(const Tensor& gradient_old, const Tensor& gradient_new);
+/// The motion from F_old to a given F_new. Throws as logarithm().
+Kinematics motion_between(const Tensor& gradient_old, const Tensor& gradient_new);
 
-/// From F_old = R U_old with a given corotational strain and without any further rotation: R stays, and the
-/// spin is what keeps U symmetric. A point without surroundings, which knows nothing of base axes, moves so.
-Kinematics strained(const Tensor& gradient_old, const Tensor& strain);
+/// The motion from F_old = R U_old by a given corotational strain without any further rotation: R stays, and the spin is
+/// the one that keeps U symmetric. A point that is led by stress and strain alone moves like this.
+Kinematics motion_by_strain(const Tensor& gradient_old, const Tensor& strain);
 
 /// Row and column of component c for `shear` shear components. Symmetric: 11, 22, 33, 12, 23, 31; after them, in
 /// the non-symmetric order, 21, 32, 13. With one shear component 11, 22, 33, 12, then 21.
@@ -50,7 +50,7 @@ constexpr std::array<int, 2> place(int c, int shear) {
   return c < 3 + shear ? std::array{s, next} : std::array{next, s};
 }
 
-/// Point k of n of an array whose components are `n` apart: symmetric tensors ...
+/// Reads a symmetric tensor of point k from an array whose components are `n` apart ...
 template <class Array> Tensor symmetric_at(const Array& a, int k, int n, int shear) {
   Tensor t = Tensor::Zero();
   for (int c = 0; c < 3 + shear; ++c) {
@@ -60,18 +60,19 @@ template <class Array> Tensor symmetric_at(const Array& a, int k, int n, int she
   return t;
 }
 
-template <class Array> void put_symmetric(const Tensor& t, int k, int n, int shear, Array& a) {
+/// ... and writes it.
+template <class Array> void set_symmetric(const Tensor& t, int k, int n, int shear, Array& a) {
   for (int c = 0; c < 3 + shear; ++c) a[c * n + k] = t(place(c, shear)[0], place(c, shear)[1]);
 }
 
-/// ... and any tensors.
+/// The same of a tensor that is not symmetric.
 template <class Array> Tensor general_at(const Array& a, int k, int n, int shear) {
   Tensor t = Tensor::Zero();
   for (int c = 0; c < 3 + 2 * shear; ++c) t(place(c, shear)[0], place(c, shear)[1]) = a[c * n + k];
   return t;
 }
 
-template <class Array> void put_general(const Tensor& t, int k, int n, int shear, Array& a) {
+template <class Array> void set_general(const Tensor& t, int k, int n, int shear, Array& a) {
   for (int c = 0; c < 3 + 2 * shear; ++c) a[c * n + k] = t(place(c, shear)[0], place(c, shear)[1]);
 }
 

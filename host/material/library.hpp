@@ -19,7 +19,7 @@ struct VumatLibrary {
 /// cannot be loaded or does not export the symbol.
 VumatLibrary load_vumat(const std::string& path);
 
-/// Path of `name` in the folder of the running program.
+/// Path of `name` in the folder of the running program, where the build puts the libraries of the materials.
 std::string beside_program(const std::string& name);
 
 } // namespace host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One point of one call, as evidence of a failure: a path file that `simsand element` replays.
+// Evidence of a failed call: the inputs of one point, and a file with these that `simsand element` replays.
 #pragma once
 #include "host/material/block.hpp"
 #include <filesystem>
@@ -12,17 +12,17 @@ struct PointCall {
   VumatBlock block; ///< of one point
 };
 
-/// Point k of a block, as it was called.
+/// The inputs of point k of a block.
 PointCall point_call(const Material& material, const Increment& increment, const VumatBlock& block, int k);
 
-/// Index in the block of the first point whose answer is not finite or whose material reports a failure; -1 if
+/// Index in the block of the first point whose results are not finite or whose material reports a failure; -1 if
 /// there is none. `failure_state`: position in STATEV that is negative after a failed update, -1: none.
 int first_failure(const VumatBlock& block, int failure_state);
 
-/// Why an answer cannot be used; empty if it can.
+/// Why the results of point k cannot be used; empty if they can.
 std::string fault_of(const VumatBlock& block, int k, int failure_state);
 
-/// An answer that cannot be used, and what was asked.
+/// Results that cannot be used: why, and the inputs of the call.
 struct BadAnswer {
   std::string fault;
   PointCall call;
@@ -32,8 +32,8 @@ struct BadAnswer {
 std::string reproducer_text(const Material& material, int failure_state, const PointCall& call,
                             const std::string& remark);
 
-/// All that is known of a bad answer, in one line: material, fault, `who` (may be empty), time, as many coordinates as
-/// `dimension` says, stress and strain increment. Writes the reproducer to `file`, unless that is empty, and says so.
+/// One line about a failed call: material, fault, `who` (may be empty), time, as many coordinates as `dimension` says,
+/// stress and strain increment. Writes the reproducer to `file`, unless that is empty, and adds how to replay it.
 std::string evidence_of(const Material& material, int failure_state, const BadAnswer& bad,
                         const std::string& who, int dimension, const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ namespace {
 
 thread_local const RunningCall* running_call = nullptr;
 
-/// Of a process that ends inside a call.
+/// Called when the process ends: reports an end inside of a call.
 void report_stop() {
   if (!running_call) return;
   std::fflush(nullptr);
@@ -32,7 +32,7 @@ std::string trimmed(const char* text, std::size_t length) {
   return {text, length};
 }
 
-/// Each message at most ten times: a subroutine that complains in every call must not bury the rest.
+/// Prints each message at most ten times, since a subroutine may send it in every call.
 void show_message(const char* kind, const std::string& original, const std::string& text) {
   constexpr int most = 10;
   static std::mutex mutex;
@@ -44,22 +44,24 @@ void show_message(const char* kind, const std::string& original, const std::stri
              times == most ? " (not shown again)" : "");
 }
 
-void put_text(const std::string& text, char* out, int* used, std::size_t length) {
+/// Writes `text` to a Fortran string of `length` characters, filled up with blanks; `used` becomes its length.
+void write_fortran(const std::string& text, char* out, int* used, std::size_t length) {
   std::memset(out, ' ', length);
   const std::size_t n = std::min(length, text.size());
   std::memcpy(out, text.data(), n);
   if (used) *used = int(n);
 }
 
-} // namespace
-
-Job& job() {
-  static Job the_job;
-  return the_job;
+/// That of the running call; outside of a call, as in a library that is being loaded, a nameless one.
+const Job& current_job() {
+  static const Job none;
+  return running_call ? running_call->job : none;
 }
 
-RunningCall::RunningCall(const std::string& material, double total_time)
-    : material(material), total_time(total_time) {
+} // namespace
+
+RunningCall::RunningCall(const std::string& material, const Job& job, double total_time)
+    : material(material), job(job), total_time(total_time) {
   static const int registered = std::atexit(report_stop);
   static_cast<void>(registered);
   running_call = this;
@@ -114,13 +116,13 @@ void xplb_abqerr_(const int* lop, const char* string, const int* integers, const
 }
 
 void vgetjobname_(char* name, int* length, std::size_t size) {
-  host::put_text(host::job().name, name, length, size);
+  host::write_fortran(host::current_job().name, name, length, size);
 }
 
 void vgetoutdir_(char* folder, int* length, std::size_t size) {
-  const auto& own = host::job().folder;
-  host::put_text(std::filesystem::absolute(own.empty() ? "." : own).lexically_normal().string(), folder,
-                 length, size);
+  const auto& own = host::current_job().folder;
+  host::write_fortran(std::filesystem::absolute(own.empty() ? "." : own).lexically_normal().string(), folder,
+                      length, size);
 }
 
 /// One process, whatever its threads.

@@ -3,34 +3,29 @@
 // xplb_abqerr, vgetjobname, vgetoutdir, vgetrank, vgetnumcpus. A library that is loaded with dlopen finds them
 // if the program was linked with its symbols exported (ENABLE_EXPORTS).
 #pragma once
+#include "host/material/job.hpp"
 #include <stdexcept>
 #include <string>
 
 namespace host {
 
-/// What subroutines are told of the run; `folder` is also where evidence of a failure is written (none if empty).
-struct Job {
-  std::string name = "simsand", folder;
-};
-/// The one of this process. To be set before the first call.
-Job& job();
-
-/// Thrown through a subroutine that asked for the end of the analysis: it must not get control back. GCC and
-/// gfortran write the tables this needs by default on x86-64 (not with -fno-asynchronous-unwind-tables).
+/// Thrown through a subroutine that asked for the end of the analysis, since it must not get control back. GCC and
+/// gfortran write the unwind tables that this needs by default on x86-64 (not with -fno-asynchronous-unwind-tables).
 struct VumatExit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Marks, while it lives, that this thread is inside a subroutine. Should the process then end by itself (STOP
-/// in Fortran, exit in C), that becomes an error with a non-zero status.
+/// Marks, while it lives, that this thread is inside a subroutine, and what the routines below answer it. If the process
+/// ends meanwhile (STOP in Fortran, exit in C), it ends with an error message and a non-zero status.
 class RunningCall {
 public:
-  RunningCall(const std::string& material, double total_time);
+  RunningCall(const std::string& material, const Job& job, double total_time);
   ~RunningCall();
   RunningCall(const RunningCall&) = delete;
   RunningCall& operator=(const RunningCall&) = delete;
 
   const std::string& material;
+  const Job& job;
   const double total_time; ///< s
 };
 

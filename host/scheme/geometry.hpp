@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What differs between geometries, as a template parameter of the stages: the dimension of the pair
-// loops, the components of stress, the volume behind an area, the hoop terms. The last coordinate is
-// vertical, upwards: z in three dimensions, so that its stress components are 11, 22 (horizontal),
-// 33 (vertical), 12, 23, 31.
+// What differs between geometries, as a template parameter: dimension, components of stress, the volume that belongs to
+// an area, hoop terms. The last coordinate is vertical, upwards; in three dimensions it is z, so that the stress
+// components are 11, 22 (horizontal), 33 (vertical), 12, 23, 31.
 #pragma once
 #include "host/scene.hpp"
 #include <numbers>
@@ -15,7 +14,7 @@ template <int Dimension> constexpr int component(int a, int b) {
   return Dimension == 2 ? 3 : (a + b == 1 ? 3 : (a + b == 3 ? 4 : 5));
 }
 
-/// Axes of component c of a symmetric tensor in the plane or in space: D normal ones, then 12, 23, 31.
+/// Axes of component c of a symmetric tensor of the coordinates: D normal components, then 12, 23, 31.
 template <int D> constexpr int first_axis(int c) {
   return c < D ? c : (c - D) % D;
 }
@@ -51,8 +50,7 @@ struct Axisymmetric {
   static constexpr double depth_of_outline = 2 * std::numbers::pi;
 };
 
-/// x and y horizontal, z vertical. The column is a cylinder about the z axis, or the sector of it on the
-/// positive side of one or two planes of symmetry.
+/// x and y horizontal, z vertical; all of space, or the sector on the positive side of one or two planes of symmetry.
 struct ThreeDimensional {
   static constexpr const char* name = "three_dimensional";
   static constexpr int dimension = 3;
@@ -65,7 +63,7 @@ struct ThreeDimensional {
   static constexpr double depth_of_outline = 2 * std::numbers::pi;
 };
 
-/// What `f` returns for the geometry named at run time; it is called as f(PlaneStrain{}) and so on.
+/// Calls f(PlaneStrain{}), f(Axisymmetric{}) or f(ThreeDimensional{}) and returns its result.
 template <class F> auto with_geometry(GeometryKind kind, F&& f) {
   if (kind == GeometryKind::plane_strain) return f(PlaneStrain{});
   if (kind == GeometryKind::axisymmetric) return f(Axisymmetric{});

@@ -23,16 +23,16 @@ template <int Dimension> struct Kernel {
   double alpha; ///< W(0), 1/m^Dimension
   double slope; ///< W'(r)/r at r = 0
 
-  /// W'(r)/r, so that the gradient of W at i is this times (x_i - x_j).
+  /// W'(r)/r: the gradient of W at i is this times (x_i - x_j).
   template <class Real> Real gradient_factor(const Real& r) const {
     const Real q = r * half_inverse_h, o = larger(1.0 - q, Real{}), o3 = o * o * o;
     if (kind == KernelKind::wendland_c2) return slope * o3;
     return slope * (o3 * (o * o)) * (1.0 + 5.0 * q);
   }
 
-  /// W'(r)/r over `pair_scale`, from the square of r, m2, in single precision: half the work. It is alike from both
-  /// sides of a pair, and the velocity gradient, corrected by the same weights, stays exact. Exactly zero from 1e-7 of
-  /// the support beyond it.
+  /// W'(r)/r over `pair_scale`, from the square of r, m2, in single precision, which takes half the time. It is the same
+  /// from both sides of a pair, and the velocity gradient stays exact, since it is corrected by sums of the same weights.
+  /// Exactly zero where r exceeds the support by more than 1e-7 of it.
   template <class Real> Single<Real> pair_shape(const Real& square) const {
     const Single<Real> reach = Single<Real>{} + float(support),
                        r = smaller(square_root(single(square)), reach);
@@ -40,12 +40,13 @@ template <int Dimension> struct Kernel {
     if (kind == KernelKind::wendland_c2) return d2 * d;
     return d2 * d2 * d * (1 + float(5 * half_inverse_h) * r);
   }
-  /// What sums of `pair_shape` are multiplied by at their end.
+  /// Factor of sums of `pair_shape`, when all neighbours have been added.
   double pair_scale() const {
     const double power = half_inverse_h * half_inverse_h * half_inverse_h;
     return slope * (kind == KernelKind::wendland_c2 ? power : power * half_inverse_h * half_inverse_h);
   }
 
+  /// W(r), 1/m^Dimension.
   template <class Real> Real value(const Real& r) const {
     const Real q = r * half_inverse_h, o = larger(1.0 - q, Real{});
     const Real o2 = o * o, o4 = o2 * o2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eight particles side by side in one vector register. Pair functions are templates on the lane type:
-// `Lane` in the stages, `double` in tests.
+// Eight particles side by side in one vector register. Functions of the scheme are templates on the type of number:
+// `Lane` for the particles of a cluster, `double` for one.
 #pragma once
 #include <cmath>
 #include <cstring>
@@ -40,7 +40,7 @@ inline double square_root(double a) {
   return std::sqrt(a);
 }
 
-/// Of one number or of each of eight.
+/// The larger and the smaller of two numbers, or of each of eight pairs.
 template <class Real> inline Real larger(const Real& a, const Real& b) {
   return a > b ? a : b;
 }
@@ -48,7 +48,7 @@ template <class Real> inline Real smaller(const Real& a, const Real& b) {
   return a < b ? a : b;
 }
 
-/// Eight of single precision, half a register, for sums that need not be exact.
+/// Eight numbers in single precision, half a register, for terms that need not be exact.
 typedef float SingleLane __attribute__((vector_size(lanes * sizeof(float))));
 
 inline SingleLane single(const Lane& a) {
@@ -58,7 +58,7 @@ inline float single(double a) {
   return float(a);
 }
 inline Lane doubled(const SingleLane& a) {
-  Lane r; // as a loop, for which compilers use one instruction
+  Lane r; // GCC makes one instruction of this loop, and two of __builtin_convertvector
   for (int l = 0; l < lanes; ++l) r[l] = a[l];
   return r;
 }
@@ -97,7 +97,7 @@ inline double largest(double a) {
 
 /// True if any of the eight is at most `limit`.
 inline bool any_within(const Lane& a, double limit) {
-#ifdef __AVX512F__ // GCC 12 goes by way of memory
+#ifdef __AVX512F__ // GCC 12 stores the vector and loads each element
   return _mm512_cmp_pd_mask(__m512d(a), _mm512_set1_pd(limit), _CMP_LE_OQ) != 0;
 #else
   bool within = false;
@@ -117,7 +117,7 @@ inline bool any(const decltype(Lane{} < Lane{}) & mask) {
 #endif
 }
 
-/// f(x) of each.
+/// Calls f for each number.
 template <class F> inline Lane each(const Lane& a, F&& f) {
   Lane r{};
   for (int l = 0; l < lanes; ++l) r[l] = f(a[l]);

@@ -91,11 +91,6 @@ Mirror plane_of_symmetry(int axis) {
 
 } // namespace
 
-int planes_of_symmetry(const Scene& scene) {
-  if (scene.geometry == GeometryKind::three_dimensional) return symmetry_planes(scene.sector);
-  return scene.column.symmetric ? 1 : 0;
-}
-
 std::vector<Mirror> scene_mirrors(const Scene& scene) {
   const bool solid = scene.geometry == GeometryKind::three_dimensional;
   std::vector<Mirror> mirrors;
@@ -109,7 +104,7 @@ std::vector<Mirror> scene_mirrors(const Scene& scene) {
   mirrors.push_back(floor);
   if (scene.gate.motion != GateMotion::remove)
     mirrors.push_back({.axis = solid ? Mirror::radial : 0,
-                       .position = scene.column.radius,
+                       .position = scene.gate.radius,
                        .positive_side = false,
                        .wall = true,
                        .gate = true,

@@ -65,9 +65,6 @@ struct Images {
   int first_wall = 0; ///< record index of the first image behind a wall
 };
 
-/// Number of planes of symmetry; the axis of axisymmetry is one.
-int planes_of_symmetry(const Scene& scene);
-
 /// The mirrors of a scene at its start, planes of symmetry first; only these where the scene has a list of walls.
 std::vector<Mirror> scene_mirrors(const Scene& scene);
 

@@ -17,7 +17,7 @@ Wall gate_wall(const Scene& scene, int up) {
   Wall wall;
   wall.name = "gate";
   wall.shape = WallShape::cylinder;
-  wall.radius = scene.column.radius;
+  wall.radius = scene.gate.radius;
   wall.lower[up] = scene.gate.motion == GateMotion::lift ? 0 : -unbounded;
   wall.upper[up] = unbounded;
   if (scene.gate.motion == GateMotion::lift) {

@@ -8,31 +8,32 @@
 
 namespace stability {
 
-/// One step under `pressure`, Pa, compression positive. `drive(particles)` sets velocities that are prescribed, after
+/// One step under `pressure`, Pa, compression positive. `drive(particles, stages)` sets velocities that are prescribed, after
 /// the kick and before the drift of the next step.
 template <class Drive>
 void confined_step(host::Simulation<host::PlaneStrain>& s, double pressure, Drive&& drive) {
   auto& p = s.particles;
-  keep_stages(p);
   host::update_lists(s);
   host::update_wave_speed(p, s.scene.material, s.blocks);
   double fastest = 0;
   for (int i = 0; i < p.count; ++i)
     fastest = std::max(fastest, p.wave_speed[i] + std::hypot(p.velocity[0][i], p.velocity[1][i]));
   s.dt = s.scene.numerics.step_factor * s.kernel.h / fastest;
-  host::update_gradient(p, s.kernel, s.lists, s.records);
-  host::update_stress(p, s.scene.material, {s.time + s.dt, s.time + s.dt, s.dt}, s.blocks);
+  Stages stages(p);
+  update_gradient(p, s.kernel, s.lists, s.records, stages);
+  update_stress(p, s.scene.material, {s.time + s.dt, s.time + s.dt, s.dt}, s.blocks, stages);
   const auto add = [&](double stress) {
     for (int c = 0; c < 3; ++c)
       for (int i = 0; i < p.count; ++i) p.stress[c][i] += stress;
   };
   add(pressure);
-  host::show_stress(p, s.scene, s.kernel.h, s.records);
+  write_stress_records(p, s.scene, s.kernel.h, stages, s.records);
   host::reflect_stress(s.images, s.mirrors, s.records);
-  host::update_acceleration(p, s.kernel, s.lists, s.records, s.scene);
+  update_acceleration(p, s.kernel, s.lists, s.records, s.scene, stages);
   add(-pressure);
-  drive(p);
-  s.work.add(host::integrate(p, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt));
+  drive(p, stages);
+  s.work.add(integrate(p, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt, stages));
+  diffuse(p, s.dt, stages);
   s.time += s.dt;
   s.dt_before = s.dt;
   ++s.steps;

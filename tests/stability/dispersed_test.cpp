@@ -24,7 +24,7 @@ Deposit collapse(double angle, bool limited) {
                        angle)},
       fmt::format("dispersed_{:g}_{}", angle, limited));
   auto s = host::start_simulation<host::Axisymmetric>(scene);
-  if (!limited) s.blocks.loosest = 0;
+  if (!limited) s.blocks.dispersed_density = 0;
   while (s.time < 0.5) host::step(s);
   const auto& p = s.particles;
   return {host::kinetic_energy(p) / s.initial_potential_energy,

@@ -27,10 +27,10 @@ struct Naive {
   double step_factor = 0.2; ///< of h / (c + |v|)
 };
 
-inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naive = {}) {
+/// Returns what the stages of the step found.
+inline Stages naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naive = {}) {
   auto& p = s.particles;
   const double h = s.kernel.h;
-  keep_stages(p);
   host::move_gate(s.mirrors, s.scene, s.time);
   host::update_lists(s);
   host::update_wave_speed(p, s.scene.material, s.blocks);
@@ -39,6 +39,7 @@ inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naiv
     fastest = std::max(fastest, p.wave_speed[i] + std::hypot(p.velocity[0][i], p.velocity[1][i]));
   s.dt = naive.step_factor * h / fastest;
 
+  Stages found(p);
   // f(i, record of j, x_i - x_j, V_j W'/r)
   const auto each_pair = [&](auto&& f) {
     for (int c = 0; c < p.clusters(); ++c)
@@ -50,22 +51,18 @@ inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naiv
           f(i, j, k >= s.lists.interior[c], x, y, record.volume * cubic_gradient_factor(std::hypot(x, y), h));
         }
   };
-  for (auto& component : p.velocity_gradient) component.assign(component.size(), 0.0);
   each_pair([&](int i, int j, bool, double x, double y, double w) {
     const double* v = s.records.motion[j].velocity;
     for (int a = 0; a < 2; ++a) {
-      p.velocity_gradient[2 * a][i] += (v[a] - p.velocity[a][i]) * w * x;
-      p.velocity_gradient[2 * a + 1][i] += (v[a] - p.velocity[a][i]) * w * y;
+      found.velocity_gradient[2 * a][i] += (v[a] - p.velocity[a][i]) * w * x;
+      found.velocity_gradient[2 * a + 1][i] += (v[a] - p.velocity[a][i]) * w * y;
     }
   });
-  for (auto& component : p.stress_diffusion) component.assign(component.size(), 0.0);
-  host::update_stress(p, s.scene.material, {s.time + s.dt, s.time + s.dt, s.dt}, s.blocks);
-  host::show_stress(p, s.scene, h, s.records);
+  update_stress(p, s.scene.material, {s.time + s.dt, s.time + s.dt, s.dt}, s.blocks, found);
+  write_stress_records(p, s.scene, h, found, s.records);
   for (auto& mirror : s.mirrors) mirror.weight_gradient = 0; // an image is a mirror image and no more
   host::reflect_stress(s.images, s.mirrors, s.records);
 
-  for (auto* group : {&p.stress_acceleration, &p.viscous_acceleration, &p.wall_acceleration})
-    for (auto& component : *group) component.assign(component.size(), 0.0);
   each_pair([&](int i, int j, bool wall, double x, double y, double w) {
     const auto& r = s.records.stress[j];
     const double* v = s.records.motion[j].velocity;
@@ -77,17 +74,18 @@ inline void naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naiv
     const double approach = (p.velocity[0][i] - v[0]) * x + (p.velocity[1][i] - v[1]) * y;
     const double viscous =
         approach < 0 ? naive.alpha * h * p.wave_speed[i] * approach / (x * x + y * y + 0.01 * h * h) : 0;
-    auto& stress = wall ? p.wall_acceleration : p.stress_acceleration;
-    auto& viscosity = wall ? p.wall_acceleration : p.viscous_acceleration;
+    auto& stress = wall ? found.wall_acceleration : found.stress_acceleration;
+    auto& viscosity = wall ? found.wall_acceleration : found.viscous_acceleration;
     stress[0][i] += (sum[0] * x + sum[2] * y) * w;
     stress[1][i] += (sum[2] * x + sum[1] * y) * w;
     viscosity[0][i] += viscous * x * w;
     viscosity[1][i] += viscous * y * w;
   });
-  s.work.add(host::integrate(p, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt));
+  s.work.add(integrate(p, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt, found));
   s.time += s.dt;
   s.dt_before = s.dt;
   ++s.steps;
+  return found;
 }
 
 } // namespace stability

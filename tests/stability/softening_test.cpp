@@ -28,11 +28,10 @@ Response compress(double spacing) {
   auto s = host::start_simulation<PlaneStrain>(scene);
   s.mirrors.clear();
   auto& p = s.particles;
-  stability::keep_stages(p);
   const stability::Places lattice(p);
   for (auto& state : p.state) std::ranges::fill(state, 0.0);
   for (int c = 0; c < 4; ++c) std::ranges::fill(p.stress[c], c < 3 ? -pressure : 0.0);
-  host::update_stress(p, s.scene.material, {1e-12, 1e-12, 1e-12}, s.blocks);
+  update_stress(p, s.scene.material, {1e-12, 1e-12, 1e-12}, s.blocks, stability::Stages(p));
   const auto plate = [&](int i) {
     const double y = lattice.of(p, i)[1];
     return y < 2 * spacing ? 1 : (y > height - 2 * spacing ? -1 : 0);
@@ -40,11 +39,11 @@ Response compress(double spacing) {
   Response out;
   constexpr double end = 0.08; // axial strain
   while (2 * speed * s.time / height < end) {
-    stability::confined_step(s, pressure, [&](auto& particles) {
+    stability::confined_step(s, pressure, [&](auto& particles, auto& stages) {
       for (int i = 0; i < particles.count; ++i)
         if (const int side = plate(i))
           for (int a = 0; a < 2; ++a) {
-            particles.stress_acceleration[a][i] = particles.viscous_acceleration[a][i] = 0;
+            stages.stress_acceleration[a][i] = stages.viscous_acceleration[a][i] = 0;
             particles.velocity[a][i] = a == 1 ? side * speed : 0;
           }
     });

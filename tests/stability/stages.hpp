@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests need that run the stages of a step one by one.
+// What tests need that run the stages of a step one by one in the plane.
 #pragma once
 #include "host/engine/simulation.hpp"
+#include "tests/unit/host_stages.hpp"
 
 namespace stability {
 
 using Place = std::array<double, 2>;
 using Sand = host::Particles<host::PlaneStrain>;
 
-/// Room for what one stage leaves to the next; a step of the product keeps none of it.
-inline void keep_stages(Sand& p) {
-  p.each_of_stages([&](host::Array& a) { a.resize(p.padded(), 0.0); });
-}
+using Stages = host_test::Stages<host::PlaneStrain>;
 
 /// Where particles were when this was made.
 class Places {

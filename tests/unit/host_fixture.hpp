@@ -3,6 +3,7 @@
 #pragma once
 #include "host/engine/simulation.hpp"
 #include "host/scheme/geometry.hpp"
+#include "tests/unit/host_stages.hpp"
 #include <array>
 #include <random>
 
@@ -66,9 +67,11 @@ template <class Geometry> void find_lists(host::Simulation<Geometry>& s, double 
   find_neighbours(s.particles, s.images, s.records, reach, s.lists);
 }
 
-template <class Geometry> void find_gradients(host::Simulation<Geometry>& s) {
+template <class Geometry> Stages<Geometry> find_gradients(host::Simulation<Geometry>& s) {
   find_lists(s, s.kernel.support);
-  update_gradient(s.particles, s.kernel, s.lists, s.records);
+  Stages<Geometry> stages(s.particles);
+  update_gradient(s.particles, s.kernel, s.lists, s.records, stages);
+  return stages;
 }
 
 } // namespace host_test

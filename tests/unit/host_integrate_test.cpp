@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motion of single particles: free fall, friction, walls that hold, and the account of their work.
-#include "host/engine/integrate.hpp"
 #include "host/scheme/geometry.hpp"
+#include "tests/unit/host_stages.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -9,6 +9,7 @@
 namespace {
 
 using namespace host;
+using host_test::Stages;
 
 constexpr double spacing = 0.002, reach = 3 * spacing, g = 9.81, dt = 1e-4;
 
@@ -16,9 +17,8 @@ Scene scene_with(double friction, GateMotion gate = GateMotion::fixed) {
   Scene scene;
   scene.spacing = spacing;
   scene.gravity = g;
-  scene.column = {0.05, 0.05};
   scene.floor.friction = friction;
-  scene.gate = {gate, 1.6};
+  scene.gate = {gate, 1.6, 0.05};
   return scene;
 }
 
@@ -34,10 +34,17 @@ Particles<PlaneStrain> one_particle(double x, double y, double vx, double vy) {
   return p;
 }
 
-/// A step of `dt` after one of the same size.
+/// A step of `dt` after one of the same size, under the accelerations of `stages`.
+template <class Geometry>
+Work advance(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors,
+             const Stages<Geometry>& stages) {
+  return integrate(p, scene, mirrors, reach, dt, dt, stages);
+}
+
+/// The same without forces.
 template <class Geometry>
 Work advance(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors) {
-  return integrate(p, scene, mirrors, reach, dt, dt);
+  return advance(p, scene, mirrors, Stages<Geometry>(p));
 }
 
 TEST(Integrate, FreeFallIsTheParabolaForAnyStepSizes) {
@@ -50,7 +57,7 @@ TEST(Integrate, FreeFallIsTheParabolaForAnyStepSizes) {
   double t = 0, before = 0;
   while (t < 0.3) {
     const double now = step(random);
-    work.add(integrate(p, scene, mirrors, reach, before, now));
+    work.add(integrate(p, scene, mirrors, reach, before, now, Stages<PlaneStrain>(p)));
     t += now;
     before = now;
     ASSERT_NEAR(p.position[0][0], 0.02 + 0.3 * t, 1e-13);
@@ -61,22 +68,26 @@ TEST(Integrate, FreeFallIsTheParabolaForAnyStepSizes) {
   EXPECT_EQ(work.guarded, 0);
 }
 
-/// A particle on the floor, which carries its weight, under a horizontal `push`, m/s2.
-Particles<PlaneStrain> on_the_floor(double velocity, double push) {
-  auto p = one_particle(0.02, 0.5 * spacing, velocity, 0);
-  p.wall_acceleration[1][0] = g;
-  p.stress_acceleration[0][0] = push;
-  return p;
+Particles<PlaneStrain> on_the_floor(double velocity) {
+  return one_particle(0.02, 0.5 * spacing, velocity, 0);
+}
+
+/// The forces on it: the floor carries its weight, stress pushes it by `push`, m/s2, along the floor.
+Stages<PlaneStrain> floor_forces(double push, double by_floor = g) {
+  Stages<PlaneStrain> stages(on_the_floor(0));
+  stages.wall_acceleration[1][0] = by_floor;
+  stages.stress_acceleration[0][0] = push;
+  return stages;
 }
 
 TEST(Integrate, ASlidingParticleSlowsDownByFrictionTimesItsWeight) {
   const auto scene = scene_with(0.4);
   for (const double velocity : {0.2, -0.2}) {
-    auto p = on_the_floor(velocity, 0);
+    auto p = on_the_floor(velocity);
     const auto stop = int(std::abs(velocity) / (0.4 * g * dt)); // whole steps before it stands
     Work work;
     for (int n = 1; n <= stop + 50; ++n) {
-      work.add(advance(p, scene, scene_mirrors(scene)));
+      work.add(advance(p, scene, scene_mirrors(scene), floor_forces(0)));
       const double expected = n <= stop ? velocity - std::copysign(0.4 * g * n * dt, velocity) : 0;
       ASSERT_NEAR(p.velocity[0][0], expected, 1e-13);
     }
@@ -89,10 +100,10 @@ TEST(Integrate, ASlidingParticleSlowsDownByFrictionTimesItsWeight) {
 
 TEST(Integrate, AParticleSticksUntilPushedHarderThanFriction) {
   const auto scene = scene_with(0.4);
-  auto held = on_the_floor(0, 0.39 * g), pushed = on_the_floor(0, 0.41 * g);
+  auto held = on_the_floor(0), pushed = held;
   for (int n = 0; n < 100; ++n) {
-    advance(held, scene, scene_mirrors(scene));
-    advance(pushed, scene, scene_mirrors(scene));
+    advance(held, scene, scene_mirrors(scene), floor_forces(0.39 * g));
+    advance(pushed, scene, scene_mirrors(scene), floor_forces(0.41 * g));
   }
   EXPECT_EQ(held.position[0][0], 0.02);
   EXPECT_NEAR(pushed.velocity[0][0], 0.01 * g * 100 * dt, 1e-13);
@@ -100,11 +111,10 @@ TEST(Integrate, AParticleSticksUntilPushedHarderThanFriction) {
 
 TEST(Integrate, NoFrictionAboveTheFloorNorWhereItPulls) {
   const auto scene = scene_with(0.4);
-  auto high = on_the_floor(0.2, 0), pulled = high;
+  auto high = on_the_floor(0.2), pulled = high;
   high.position[1][0] = reach;
-  pulled.wall_acceleration[1][0] = -g;
-  advance(high, scene, scene_mirrors(scene));
-  advance(pulled, scene, scene_mirrors(scene));
+  advance(high, scene, scene_mirrors(scene), floor_forces(0));
+  advance(pulled, scene, scene_mirrors(scene), floor_forces(0, -g));
   EXPECT_EQ(high.velocity[0][0], 0.2);
   EXPECT_EQ(pulled.velocity[0][0], 0.2);
 }
@@ -202,11 +212,12 @@ TEST(Integrate, FrictionOpposesTheSlidingInAnyDirection) {
   p.position[2][0] = 0.5 * spacing;
   p.velocity[0][0] = 0.12;
   p.velocity[1][0] = -0.16;
-  p.wall_acceleration[2][0] = g;               // the floor carries the weight
+  Stages<ThreeDimensional> stages(p);
+  stages.wall_acceleration[2][0] = g;          // the floor carries the weight
   const auto stop = int(0.2 / (0.4 * g * dt)); // whole steps before it stands
   Work work;
   for (int n = 1; n <= stop + 50; ++n) {
-    work.add(advance(p, scene, scene_mirrors(scene)));
+    work.add(advance(p, scene, scene_mirrors(scene), stages));
     const double speed = n <= stop ? 0.2 - 0.4 * g * n * dt : 0;
     ASSERT_NEAR(p.velocity[0][0], 0.6 * speed, 1e-13);
     ASSERT_NEAR(p.velocity[1][0], -0.8 * speed, 1e-13);
@@ -230,12 +241,13 @@ TEST(Integrate, WorkClosesTheEnergyWithoutGravity) {
     }
   }
   Work work;
+  Stages<Axisymmetric> stages(p);
   const double before = kinetic_energy(p);
   for (int n = 0; n < 200; ++n) {
-    for (auto* kind : {&p.stress_acceleration, &p.viscous_acceleration, &p.wall_acceleration})
+    for (auto* kind : {&stages.stress_acceleration, &stages.viscous_acceleration, &stages.wall_acceleration})
       for (auto& a : *kind)
         for (int i = 0; i < p.count; ++i) a[i] = 100 * normal(random);
-    work.add(advance(p, scene, scene_mirrors(scene)));
+    work.add(advance(p, scene, scene_mirrors(scene), stages));
   }
   EXPECT_NEAR(kinetic_energy(p) - before, work.total(), 1e-12 * before);
   EXPECT_LT(work.friction, 0);

@@ -72,14 +72,14 @@ TEST(Kinematics, OfSimpleShear) {
     const double before = f(0, 1);
     Tensor l = Tensor::Zero();
     l(0, 1) = shear - before;
-    const auto m = carried_along(f, l);
+    const auto m = motion_by_gradient(f, l);
     f = m.gradient_new;
     EXPECT_NEAR(f(0, 1), shear, 1e-14);
     EXPECT_NEAR(m.rotation_new(0, 1), std::sin(std::atan(shear / 2)), 1e-14);
     EXPECT_NEAR(m.spin[2], -(shear - before) / 2 + std::atan(shear / 2) - std::atan(before / 2), 1e-14);
     EXPECT_LT(distance(m.stretch_new * m.stretch_new, f.transpose() * f), 1e-13);
     EXPECT_NEAR(m.strain.trace(), 0, 1e-15);
-    const auto led = led_to(m.gradient_old, m.gradient_new);
+    const auto led = motion_between(m.gradient_old, m.gradient_new);
     EXPECT_LT(distance(led.strain, m.strain), 1e-14);
   }
 }
@@ -89,13 +89,13 @@ TEST(Kinematics, ARotationOfEverythingIsNotSeen) {
   for (int trial = 0; trial < 100; ++trial) {
     const Tensor f = exponential(random_tensor(random, 0.5, false)), l = random_tensor(random, 0.1, false);
     const Tensor w = random_tensor(random, 1.0, false), q = exponential(w - w.transpose());
-    const auto m = carried_along(f, l), turned = carried_along(q * f, q * l * q.transpose());
+    const auto m = motion_by_gradient(f, l), turned = motion_by_gradient(q * f, q * l * q.transpose());
     EXPECT_LT(distance(turned.strain, m.strain), 1e-14);
     EXPECT_LT(distance(turned.stretch_new, m.stretch_new), 1e-13);
     EXPECT_LT((turned.spin - m.spin).norm(), 1e-13);
     EXPECT_LT(distance(turned.rotation_new, q * m.rotation_new), 1e-13);
     // A rotation alone: no strain, and the frame turns with it.
-    const auto rigid = carried_along(f, 0.3 * (w - w.transpose()));
+    const auto rigid = motion_by_gradient(f, 0.3 * (w - w.transpose()));
     EXPECT_LT(distance(rigid.strain, Tensor::Zero()), 1e-14);
     EXPECT_LT(distance(rigid.stretch_new, rigid.stretch_old), 1e-13);
     if ((w - w.transpose()).norm() < 2) {
@@ -109,13 +109,13 @@ TEST(Kinematics, APointWithoutSurroundingsKeepsItsRotation) {
   for (int trial = 0; trial < 200; ++trial) {
     const Tensor f = exponential(random_tensor(random, 0.5, false)), a = random_tensor(random, 0.02, false);
     const Tensor strain = a + a.transpose();
-    const auto m = strained(f, strain);
+    const auto m = motion_by_strain(f, strain);
     EXPECT_LT(distance(rotation_of(m.gradient_new), rotation_of(f)), 1e-13);
     EXPECT_NEAR(m.gradient_new.determinant() / f.determinant(), std::exp(strain.trace()), 1e-13);
     // It is what carries F along with the strain and spin that are shown.
     const Tensor r = rotation_of(f);
     const Tensor w{{0, -m.spin[2], m.spin[1]}, {m.spin[2], 0, -m.spin[0]}, {-m.spin[1], m.spin[0], 0}};
-    const auto carried = carried_along(f, r * (strain + w) * r.transpose());
+    const auto carried = motion_by_gradient(f, r * (strain + w) * r.transpose());
     EXPECT_LT(distance(carried.gradient_new, m.gradient_new), 1e-13);
     EXPECT_LT(distance(carried.strain, strain), 1e-13);
     EXPECT_LT((carried.spin - m.spin).norm(), 1e-13);
@@ -130,7 +130,7 @@ TEST(Kinematics, ComponentsStandInTheOrderOfAbaqus) {
   std::vector<double> array(18);
   Tensor t;
   t << 11, 12, 13, 21, 22, 23, 31, 32, 33;
-  put_general(t, 1, 2, 3, array);
+  set_general(t, 1, 2, 3, array);
   EXPECT_EQ(array, (std::vector<double>{0, 11, 0, 22, 0, 33, 0, 12, 0, 23, 0, 31, 0, 21, 0, 32, 0, 13}));
   EXPECT_EQ(general_at(array, 1, 2, 3), t);
   EXPECT_EQ(symmetric_at(array, 1, 2, 3)(0, 2), 31);

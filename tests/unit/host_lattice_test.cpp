@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The column at its start: its mass, its stress, its places.
 #include "host/bodies/disc.hpp"
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/scheme/kernel.hpp"
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ Scene scene(double spacing = 0.002) {
 }
 
 template <class Geometry> double mass_of(const Scene& s) {
-  const auto p = make_column<Geometry>(s);
+  const auto p = initial_particles<Geometry>(s);
   double sum = 0;
   for (int i = 0; i < p.count; ++i) sum += p.mass[i];
   return sum;
@@ -61,7 +61,7 @@ TEST(Lattice, HoldsTheMassOfTheSector) {
 
 /// Places in units of a micrometre.
 std::set<std::array<long, 3>> places(Sector sector) {
-  const auto p = make_column<ThreeDimensional>(solid_scene(sector));
+  const auto p = initial_particles<ThreeDimensional>(solid_scene(sector));
   std::set<std::array<long, 3>> all;
   for (int i = 0; i < p.count; ++i)
     all.insert({std::lround(1e6 * p.position[0][i]), std::lround(1e6 * p.position[1][i]),
@@ -82,7 +82,7 @@ TEST(Lattice, ASectorIsThatPartOfTheWhole) {
 
 TEST(Lattice, RingsOfEqualParticlesFillTheDiscEvenly) {
   const auto s = solid_scene(Sector::full, 0.002);
-  const auto p = make_column<ThreeDimensional>(s);
+  const auto p = initial_particles<ThreeDimensional>(s);
   const int layer = p.count / 16;
   EXPECT_EQ(p.count % 16, 0);
   EXPECT_NEAR(layer, std::numbers::pi * 25 * 25, 3) << "25 rings";
@@ -138,7 +138,7 @@ TEST(Lattice, AUniformStressPushesNoParticleOfTheDisc) {
 
 TEST(Lattice, StartsGeostaticHalfASpacingInside) {
   const auto s = scene();
-  const auto p = make_column<Axisymmetric>(s);
+  const auto p = initial_particles<Axisymmetric>(s);
   ASSERT_EQ(p.count, 25 * 16);
   std::set<int> ids;
   for (int i = 0; i < p.count; ++i) {
@@ -164,7 +164,7 @@ template <class Geometry = PlaneStrain> std::string error_of(double radius, doub
   auto s = scene();
   s.column = {radius, height};
   try {
-    make_column<Geometry>(s);
+    initial_particles<Geometry>(s);
   } catch (const std::runtime_error& error) {
     return error.what();
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outline, height, front and volume of bodies whose shape is known.
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/engine/metrics.hpp"
 #include "host/scheme/geometry.hpp"
 #include <cmath>
@@ -18,7 +18,7 @@ template <class Geometry> Particles<Geometry> column() {
   scene.spacing = spacing;
   scene.column = {radius, height};
   scene.bulk_density = density;
-  return make_column<Geometry>(scene);
+  return initial_particles<Geometry>(scene);
 }
 
 /// Copies of the particles with one more of the lattice's volume.
@@ -113,7 +113,7 @@ Particles<ThreeDimensional> solid_column(Sector sector) {
   scene.spacing = spacing;
   scene.column = {14 * spacing, 8 * spacing};
   scene.bulk_density = density;
-  return make_column<ThreeDimensional>(scene);
+  return initial_particles<ThreeDimensional>(scene);
 }
 
 TEST(Metrics, OfACylinderAndItsSectors) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images behind axis, floor and gate: where they stand, what they carry, and that a column in equilibrium
 // does not notice that it ends there.
-#include "host/bodies/lattice.hpp"
+#include "host/bodies/initial_particles.hpp"
 #include "host/engine/simulation.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/walls/mirrors.hpp"
+#include "tests/unit/host_stages.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <map>
@@ -21,15 +22,27 @@ Scene column_scene(GateMotion gate) {
   scene.column = {radius, height};
   scene.bulk_density = 1500;
   scene.earth_pressure_ratio = 0.5;
-  scene.gate = {gate, 1.6};
+  scene.gate = {gate, 1.6, radius};
   return scene;
+}
+
+template <class Geometry> using Stages = host_test::Stages<Geometry>;
+
+/// Velocity gradients and forces.
+template <class Geometry> Stages<Geometry> find_forces(Simulation<Geometry>& s) {
+  Stages<Geometry> stages(s.particles);
+  update_gradient(s.particles, s.kernel, s.lists, s.records, stages);
+  write_stress_records(s.particles, s.scene, s.kernel.h, stages, s.records);
+  reflect_stress(s.images, s.mirrors, s.records);
+  update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene, stages);
+  return stages;
 }
 
 /// A column at rest as a step sees it, with the stress that `stress(y)` gives in the order of components.
 template <class Geometry, class Stress> Simulation<Geometry> standing(const Scene& scene, Stress&& stress) {
   Simulation<Geometry> s{.scene = scene,
                          .kernel = Kernel<2>(scene.numerics.smoothing_length * scene.spacing),
-                         .particles = make_column<Geometry>(scene),
+                         .particles = initial_particles<Geometry>(scene),
                          .mirrors = scene_mirrors(scene)};
   auto& p = s.particles;
   for (int i = 0; i < p.count; ++i)
@@ -40,10 +53,6 @@ template <class Geometry, class Stress> Simulation<Geometry> standing(const Scen
   show_motion(p, s.records);
   reflect_motion(s.images, s.mirrors, s.records);
   find_neighbours(p, s.images, s.records, s.kernel.support, s.lists);
-  update_gradient(p, s.kernel, s.lists, s.records);
-  show_stress(p, scene, s.kernel.h, s.records);
-  reflect_stress(s.images, s.mirrors, s.records);
-  update_acceleration(p, s.kernel, s.lists, s.records, scene);
   return s;
 }
 
@@ -62,8 +71,9 @@ constexpr double single_rounding = 5.96e-8; // relative, of one operation: the k
 
 /// Expects the acceleration (0, `vertical`), m/s2, wherever the support is complete: to rounding, and to what
 /// the lattice's moment lacks in `vertical` and in the balance of radial and hoop stress.
-template <class Geometry> void expect_acceleration(const Simulation<Geometry>& s, double vertical) {
+template <class Geometry> void expect_acceleration(Simulation<Geometry> s, double vertical) {
   const auto& p = s.particles;
+  const auto stages = find_forces(s);
   const double lacking = std::abs(1 - lattice_moment(s.kernel)) * (1 + 1e-9);
   ASSERT_LT(lacking, 0.005);
   double worst = 0;
@@ -73,7 +83,7 @@ template <class Geometry> void expect_acceleration(const Simulation<Geometry>& s
     const double allowed[2] = {lacking * radial, lacking * vertical},
                  rounding = 2 * single_rounding * 700 / (1500 * spacing);
     for (int a = 0; a < 2; ++a) {
-      const double found = p.stress_acceleration[a][i] + p.wall_acceleration[a][i];
+      const double found = stages.stress_acceleration[a][i] + stages.wall_acceleration[a][i];
       worst = std::max(worst, std::abs(found - (a == 1 ? vertical : 0)) - allowed[a] - rounding);
     }
   }
@@ -125,7 +135,7 @@ struct Lone {
     records.motion.resize(p.padded() + images.list.size());
     records.stress.resize(records.motion.size());
     show_motion(p, records);
-    show_stress(p, scene, 1.5 * spacing, records);
+    write_stress_records(p, scene, 1.5 * spacing, Stages<Axisymmetric>(p), records);
     reflect();
   }
   void reflect() {
@@ -201,6 +211,7 @@ TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
   scene.geometry = GeometryKind::three_dimensional;
   Particles<ThreeDimensional> p;
   p.resize(1, 0);
+  Stages<ThreeDimensional> stages(p);
   const double r = radius - 0.7 * spacing, angle = 0.6;
   const Eigen::Vector3d normal(std::cos(angle), std::sin(angle), 0), velocity(3, -4, 5);
   const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
@@ -212,7 +223,7 @@ TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
     p.velocity[a][0] = velocity[a];
     for (int b = 0; b < 3; ++b) {
       p.stress[component<3>(a, b)][0] = stress(a, b);
-      p.velocity_gradient[3 * a + b][0] = gradient(a, b);
+      stages.velocity_gradient[3 * a + b][0] = gradient(a, b);
     }
   }
   p.density[0] = 1500;
@@ -225,7 +236,7 @@ TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
   records.motion.resize(p.padded() + 1);
   records.stress.resize(p.padded() + 1);
   show_motion(p, records);
-  show_stress(p, scene, 1.5 * spacing, records);
+  write_stress_records(p, scene, 1.5 * spacing, stages, records);
   reflect_motion(images, mirrors, records);
   reflect_stress(images, mirrors, records);
   const auto& motion = records.motion[images.first];
@@ -252,9 +263,10 @@ Simulation<ThreeDimensional> flowing(Sector sector) {
   scene.sector = sector;
   scene.gravity = 9.81;
   scene.column = {8 * spacing, 9 * spacing};
+  scene.gate.radius = scene.column.radius;
   Simulation<ThreeDimensional> s{.scene = scene,
                                  .kernel = Kernel<3>(1.5 * spacing),
-                                 .particles = make_column<ThreeDimensional>(scene),
+                                 .particles = initial_particles<ThreeDimensional>(scene),
                                  .mirrors = scene_mirrors(scene)};
   move_gate(s.mirrors, scene, 3.2 * spacing / scene.gate.speed);
   auto& p = s.particles;
@@ -278,16 +290,13 @@ Simulation<ThreeDimensional> flowing(Sector sector) {
   show_motion(p, s.records);
   reflect_motion(s.images, s.mirrors, s.records);
   find_neighbours(p, s.images, s.records, s.kernel.support, s.lists);
-  update_gradient(p, s.kernel, s.lists, s.records);
-  show_stress(p, scene, s.kernel.h, s.records);
-  reflect_stress(s.images, s.mirrors, s.records);
-  update_acceleration(p, s.kernel, s.lists, s.records, scene);
   return s;
 }
 
 TEST(Mirrors, AParticleOfASectorSeesWhatItSeesInTheWhole) {
-  const auto whole = flowing(Sector::full);
+  auto whole = flowing(Sector::full);
   const auto& w = whole.particles;
+  const auto in_whole = find_forces(whole);
   std::map<std::array<long, 3>, int> at;
   const auto place = [](const Particles<ThreeDimensional>& p, int i) {
     return std::array{std::lround(1e7 * p.position[0][i]), std::lround(1e7 * p.position[1][i]),
@@ -295,20 +304,22 @@ TEST(Mirrors, AParticleOfASectorSeesWhatItSeesInTheWhole) {
   };
   for (int i = 0; i < w.count; ++i) at[place(w, i)] = i;
   for (const Sector sector : {Sector::half, Sector::quarter}) {
-    const auto part = flowing(sector);
+    auto part = flowing(sector);
     const auto& p = part.particles;
+    const auto in_part = find_forces(part);
     EXPECT_EQ(p.count * (sector == Sector::half ? 2 : 4), w.count);
     for (int i = 0; i < p.count; ++i) {
       ASSERT_TRUE(at.contains(place(p, i)));
       const int j = at[place(p, i)];
-      for (int e = 0; e < 9; ++e) EXPECT_NEAR(p.velocity_gradient[e][i], w.velocity_gradient[e][j], 1e-9);
+      for (int e = 0; e < 9; ++e)
+        EXPECT_NEAR(in_part.velocity_gradient[e][i], in_whole.velocity_gradient[e][j], 1e-9);
       for (int a = 0; a < 3; ++a) {
-        EXPECT_NEAR(p.stress_acceleration[a][i], w.stress_acceleration[a][j], 1e-9);
-        EXPECT_NEAR(p.viscous_acceleration[a][i], w.viscous_acceleration[a][j], 1e-9);
-        EXPECT_NEAR(p.wall_acceleration[a][i], w.wall_acceleration[a][j], 1e-9);
+        EXPECT_NEAR(in_part.stress_acceleration[a][i], in_whole.stress_acceleration[a][j], 1e-9);
+        EXPECT_NEAR(in_part.viscous_acceleration[a][i], in_whole.viscous_acceleration[a][j], 1e-9);
+        EXPECT_NEAR(in_part.wall_acceleration[a][i], in_whole.wall_acceleration[a][j], 1e-9);
       }
       for (int c = 0; c < 6; ++c) // a rate of some 1e5 Pa/s
-        EXPECT_NEAR(p.stress_diffusion[c][i], w.stress_diffusion[c][j], 1e-7);
+        EXPECT_NEAR(in_part.stress_diffusion[c][i], in_whole.stress_diffusion[c][j], 1e-7);
     }
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pair forces: antisymmetric, adjoint to the velocity gradient, dissipative; diffusion of stress.
+#include "host/scheme/damping.hpp"
 #include "tests/unit/host_fixture.hpp"
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -41,10 +42,10 @@ template <class Geometry> Simulation<Geometry> cloud(int columns, int rows, std:
   return s;
 }
 
-template <class Geometry> void find_forces(Simulation<Geometry>& s) {
+template <class Geometry> void find_forces(Simulation<Geometry>& s, Stages<Geometry>& stages) {
   show(s);
-  show_stress(s.particles, s.scene, s.kernel.h, s.records);
-  update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene);
+  write_stress_records(s.particles, s.scene, s.kernel.h, stages, s.records);
+  update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene, stages);
 }
 
 /// Power of an acceleration, W, and the sum of the absolute parts of it.
@@ -85,8 +86,8 @@ template <class Geometry> void expect_adjoint() {
   constexpr int D = Geometry::dimension;
   auto s = cloud<Geometry>(D == 2 ? 13 : 8, D == 2 ? 11 : 7, 1);
   const auto& p = s.particles;
-  find_gradients(s);
-  find_forces(s);
+  auto stages = find_gradients(s);
+  find_forces(s, stages);
   double stress_power = 0;
   for (int i = 0; i < p.count; ++i) {
     const auto g = gradient_sum(s, i);
@@ -95,7 +96,7 @@ template <class Geometry> void expect_adjoint() {
       for (int b = 0; b < D; ++b) power += p.stress[component<D>(a, b)][i] * g[D * a + b];
     stress_power += p.mass[i] / p.density[i] * power;
   }
-  const auto [by_pairs, size] = power(p, p.stress_acceleration);
+  const auto [by_pairs, size] = power(p, stages.stress_acceleration);
   EXPECT_GT(size, D == 2 ? 1 : 1e-3);
   EXPECT_NEAR(by_pairs, -stress_power, 1e-13 * size);
 }
@@ -109,9 +110,9 @@ TEST(Momentum, WorkOfPairForcesIsTheStressPowerOfTheGradientSum) {
 TEST(Momentum, PairForcesAreAntisymmetric) {
   auto s = cloud<PlaneStrain>(2, 1, 2);
   const auto& p = s.particles;
-  find_gradients(s);
-  find_forces(s);
-  for (const auto* acceleration : {&p.stress_acceleration, &p.viscous_acceleration})
+  auto stages = find_gradients(s);
+  find_forces(s, stages);
+  for (const auto* acceleration : {&stages.stress_acceleration, &stages.viscous_acceleration})
     for (const auto& a : *acceleration) {
       EXPECT_NE(a[0], 0);
       EXPECT_NEAR(p.mass[0] * a[0], -p.mass[1] * a[1], 1e-14 * std::abs(p.mass[0] * a[0]));
@@ -121,9 +122,9 @@ TEST(Momentum, PairForcesAreAntisymmetric) {
 template <class Geometry> void expect_momentum_kept(int columns, int rows) {
   auto s = cloud<Geometry>(columns, rows, 3);
   const auto& p = s.particles;
-  find_gradients(s);
-  find_forces(s);
-  for (const auto* acceleration : {&p.stress_acceleration, &p.viscous_acceleration})
+  auto stages = find_gradients(s);
+  find_forces(s, stages);
+  for (const auto* acceleration : {&stages.stress_acceleration, &stages.viscous_acceleration})
     for (const auto& a : *acceleration) {
       double sum = 0, size = 0;
       for (int i = 0; i < p.count; ++i) {
@@ -147,21 +148,21 @@ constexpr double single_rounding =
 TEST(Momentum, InThreeDimensionsIsTheSumOverThePairs) {
   auto s = cloud<ThreeDimensional>(7, 6, 9);
   auto& p = s.particles;
-  find_gradients(s);
-  find_forces(s);
+  auto stages = find_gradients(s);
+  find_forces(s, stages);
   const auto& n = s.scene.numerics;
   const double h = s.kernel.h;
   for (int i = 0; i < p.count; i += 7) {
     double stress[3]{}, viscous[3]{}, viscous_size[3]{}, diffusion[6]{}, norm = 0;
     const auto speed = [&](int k) {
       double square = 0;
-      for (const auto& g : p.velocity_gradient) square += g[k] * g[k];
+      for (const auto& g : stages.velocity_gradient) square += g[k] * g[k];
       if (k == i) norm = std::sqrt(square);
-      return double(float(damping_speed(n, h, p.wave_speed[k], std::sqrt(square))));
+      return double(float(damping_speed(medium_of(s.scene), h, p.wave_speed[k], std::sqrt(square))));
     };
     const auto density = [&](int k) { return double(float(p.density[k])); };
     const auto rate = [&](int k, int a, int b) {
-      const auto g = [&](int e, int f) { return p.velocity_gradient[3 * e + f][k]; };
+      const auto g = [&](int e, int f) { return stages.velocity_gradient[3 * e + f][k]; };
       return double(float(a == b ? g(a, a) : g(a, b) + g(b, a)));
     };
     for (int j = 0; j < p.count; ++j) {
@@ -196,22 +197,23 @@ TEST(Momentum, InThreeDimensionsIsTheSumOverThePairs) {
     }
     const double diffusivity = std::min(n.stress_diffusion * h * h * norm, 0.1 * h * p.wave_speed[i]);
     for (int a = 0; a < 3; ++a) {
-      EXPECT_NEAR(p.stress_acceleration[a][i], stress[a] / p.density[i], 1e-9);
-      EXPECT_NEAR(p.viscous_acceleration[a][i], viscous[a] / p.density[i],
+      EXPECT_NEAR(stages.stress_acceleration[a][i], stress[a] / p.density[i], 1e-9);
+      EXPECT_NEAR(stages.viscous_acceleration[a][i], viscous[a] / p.density[i],
                   10 * single_rounding * viscous_size[a] / p.density[i]);
     }
     for (int c = 0; c < 6; ++c)
-      EXPECT_NEAR(p.stress_diffusion[c][i], 2 * diffusivity * diffusion[c],
+      EXPECT_NEAR(stages.stress_diffusion[c][i], 2 * diffusivity * diffusion[c],
                   1e-10 * 1e3 * 2 * diffusivity / (h * h));
   }
 }
 
 /// Gives all particles the velocity field v = v0 + G x and its gradient.
-template <class Geometry> void move_linearly(Particles<Geometry>& p, const double (&slope)[4]) {
+template <class Geometry>
+void move_linearly(Particles<Geometry>& p, Stages<Geometry>& stages, const double (&slope)[4]) {
   for (int i = 0; i < p.count; ++i)
     for (int a = 0; a < 2; ++a) {
       p.velocity[a][i] = 0.3 + slope[2 * a] * p.position[0][i] + slope[2 * a + 1] * p.position[1][i];
-      for (int b = 0; b < 2; ++b) p.velocity_gradient[2 * a + b][i] = slope[2 * a + b];
+      for (int b = 0; b < 2; ++b) stages.velocity_gradient[2 * a + b][i] = slope[2 * a + b];
     }
 }
 
@@ -225,13 +227,13 @@ double largest(const std::array<Array, 2>& acceleration, int count) {
 TEST(Momentum, ViscosityLeavesALinearFlowAlone) {
   auto s = cloud<Axisymmetric>(13, 11, 4);
   auto& p = s.particles;
-  find_gradients(s);
-  move_linearly(p, {-40, 25, 10, 30});
-  find_forces(s);
-  const double resolved = largest(p.viscous_acceleration, p.count);
-  for (auto& g : p.velocity_gradient) g.assign(g.size(), 0.0);
-  find_forces(s);
-  EXPECT_LT(resolved, 10 * single_rounding * largest(p.viscous_acceleration, p.count));
+  auto stages = find_gradients(s);
+  move_linearly(p, stages, {-40, 25, 10, 30});
+  find_forces(s, stages);
+  const double resolved = largest(stages.viscous_acceleration, p.count);
+  for (auto& g : stages.velocity_gradient) g.assign(g.size(), 0.0);
+  find_forces(s, stages);
+  EXPECT_LT(resolved, 10 * single_rounding * largest(stages.viscous_acceleration, p.count));
 }
 
 template <class Geometry> void expect_dissipation() {
@@ -241,13 +243,13 @@ template <class Geometry> void expect_dissipation() {
     constexpr bool solid = Geometry::dimension == 3;
     auto s = seed < 290 ? cloud<Geometry>(2, 1, seed) : cloud<Geometry>(solid ? 6 : 13, solid ? 4 : 11, seed);
     auto& p = s.particles;
-    find_gradients(s);
+    auto stages = find_gradients(s);
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal(0, 500); // whatever the gradients are
-    for (auto& g : p.velocity_gradient)
+    for (auto& g : stages.velocity_gradient)
       for (int i = 0; i < p.count; ++i) g[i] = normal(random);
-    find_forces(s);
-    const auto [sum, size] = power(p, p.viscous_acceleration);
+    find_forces(s, stages);
+    const auto [sum, size] = power(p, stages.viscous_acceleration);
     EXPECT_LE(sum, 1e-14 * size) << "seed " << seed;
   }
   omp_set_num_threads(threads);
@@ -260,21 +262,22 @@ TEST(Momentum, ViscosityNeverGivesEnergy) {
 }
 
 /// Rates of stress diffusion in a uniform flow of shear rate 50 / s.
-template <class Geometry> void find_diffusion(Simulation<Geometry>& s) {
-  find_gradients(s);
-  move_linearly(s.particles, {0, 50, 0, 0});
-  find_forces(s);
+template <class Geometry> Stages<Geometry> find_diffusion(Simulation<Geometry>& s) {
+  auto stages = find_gradients(s);
+  move_linearly(s.particles, stages, {0, 50, 0, 0});
+  find_forces(s, stages);
+  return stages;
 }
 
 TEST(Momentum, StressDiffusionConservesAndSmooths) {
   auto s = cloud<PlaneStrain>(13, 11, 5);
   s.scene.gravity = 0;
-  find_diffusion(s);
+  const auto stages = find_diffusion(s);
   const auto& p = s.particles;
   for (int c = 0; c < 4; ++c) {
     double total = 0, size = 0, change = 0;
     for (int i = 0; i < p.count; ++i) {
-      const double rate = p.mass[i] / p.density[i] * p.stress_diffusion[c][i];
+      const double rate = p.mass[i] / p.density[i] * stages.stress_diffusion[c][i];
       total += rate;
       size += std::abs(rate);
       change += rate * p.stress[c][i];
@@ -294,14 +297,14 @@ TEST(Momentum, StressDiffusionIsThatOfTheHeatEquation) {
     p.density[i] = 1500;
     p.stress[0][i] = p.position[0][i] * p.position[0][i];
   }
-  find_diffusion(s);
+  const auto stages = find_diffusion(s);
   const double diffusivity = s.scene.numerics.stress_diffusion * s.kernel.h * s.kernel.h * 50;
   int interior = 0;
   for (int i = 0; i < p.count; ++i) {
     if (std::abs(p.position[0][i] / spacing - 30) > 6.5 || std::abs(p.position[1][i] / spacing - 30) > 6.5)
       continue;
     ++interior;
-    EXPECT_NEAR(p.stress_diffusion[0][i], 2 * diffusivity, 0.02 * 2 * diffusivity);
+    EXPECT_NEAR(stages.stress_diffusion[0][i], 2 * diffusivity, 0.02 * 2 * diffusivity);
   }
   EXPECT_EQ(interior, 13 * 13);
 }
@@ -316,10 +319,10 @@ TEST(Momentum, GeostaticStressDoesNotDiffuse) {
     p.stress[2][i] = 0.5 * vertical;
     p.stress[3][i] = 7;
   }
-  find_diffusion(s);
+  const auto stages = find_diffusion(s);
   const double diffusivity = s.scene.numerics.stress_diffusion * s.kernel.h * s.kernel.h * 50;
   const double rounding = 1e-12 * 1500 * diffusivity / (spacing * spacing);
-  for (const auto& rate : p.stress_diffusion)
+  for (const auto& rate : stages.stress_diffusion)
     for (int i = 0; i < p.count; ++i) EXPECT_NEAR(rate[i], 0, rounding);
 }
 

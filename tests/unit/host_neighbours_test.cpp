@@ -25,7 +25,7 @@ Simulation<Geometry> scattered(int count, double width, int strays, std::uint64_
   Scene scene;
   scene.geometry = kind<Geometry>;
   scene.sector = Sector::quarter;
-  scene.column = {side, side};
+  scene.gate.radius = side;
   scene.gate.motion = GateMotion::fixed;
   auto s = empty_cloud<Geometry>(count, scene, 2);
   s.mirrors = scene_mirrors(scene);
@@ -140,13 +140,14 @@ template <class Geometry> void expect_pruned(double width) {
   p.wave_speed.assign(p.padded(), 30);
   arrange(s, 0.25 * reach, 1.2 * s.kernel.support);
   find_lists(s, 1.2 * s.kernel.support);
-  show_stress(p, s.scene, s.kernel.h, s.records);
+  Stages<Geometry> stages(p);
+  write_stress_records(p, s.scene, s.kernel.h, stages, s.records);
   reflect_stress(s.images, s.mirrors, s.records);
   const auto sums = [&] {
-    update_gradient(p, s.kernel, s.lists, s.records);
-    update_acceleration(p, s.kernel, s.lists, s.records, s.scene);
+    update_gradient(p, s.kernel, s.lists, s.records, stages);
+    update_acceleration(p, s.kernel, s.lists, s.records, s.scene, stages);
     std::vector<double> all;
-    p.each_of_stages([&](const Array& a) { all.insert(all.end(), a.begin(), a.begin() + p.count); });
+    stages.each([&](const Array& a) { all.insert(all.end(), a.begin(), a.begin() + p.count); });
     return all;
   };
   const auto by_outer = sums();

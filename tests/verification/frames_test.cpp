@@ -2,9 +2,9 @@
 // The two frames of the SPH host under a homogeneous motion: closed forms, what the audit of a Fortran VUMAT finds,
 // and agreement of both frames.
 #include "drivers/files/material_file.hpp"
-#include "host/engine/stress.hpp"
 #include "host/material/corotational.hpp"
 #include "host/scheme/geometry.hpp"
+#include "tests/unit/host_stages.hpp"
 #include <Eigen/Dense>
 #include <cmath>
 #include <fmt/format.h>
@@ -28,6 +28,7 @@ struct Homogeneous {
   Particles<Geometry> p;
   Material material;
   StressBlocks blocks;
+  host_test::Stages<Geometry> stages{p};
   double time = 0;
 
   Homogeneous(const Material& m, int count, const std::vector<double>& state, double density = 1500)
@@ -43,12 +44,13 @@ struct Homogeneous {
     if (m.frame == Frame::green_naghdi) carry_deformation(p);
     blocks = make_stress_blocks(m, p, 0.002);
     blocks.failure_state = -1;
+    stages = host_test::Stages<Geometry>(p);
   }
   /// L, 1/s, row by row, over `dt`.
   void step(const std::array<double, 4>& l, double dt) {
-    for (int e = 0; e < 4; ++e) std::fill_n(p.velocity_gradient[e].begin(), p.count, l[e]);
+    for (int e = 0; e < 4; ++e) stages.velocity_gradient[e].assign(p.padded(), l[e]);
     time += dt;
-    update_stress(p, material, {time, time, dt}, blocks);
+    update_stress(p, material, {time, time, dt}, blocks, stages);
   }
   std::array<double, 4> stress(int i = 0) const {
     return {p.stress[0][i], p.stress[1][i], p.stress[2][i], p.stress[3][i]};
