@@ -105,6 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AgainstDriver,
                                          Agreement{"triaxial-undrained", 0.7, 100e3, 0.1},
                                          Agreement{"triaxial-undrained", 0.62, 20e3, -0.05},
                                          Agreement{"triaxial-constant-p", 0.65, 50e3, 0.1},
+                                         Agreement{"triaxial-constant-volume", 0.7, 100e3, 0.1},
                                          Agreement{"oedometric", 0.7, 10e3, 0.02}));
 
 TEST(Simulator, TestsDoNotSeeEachOther) {
