@@ -31,7 +31,7 @@ template <int D> bool touch(const WallsOfStep<D>& walls, int s, double gap_kept,
   add_scaled(change, 1, apply_friction(walls.walls[surface.wall], surface, n, stopped, p.velocity));
   const double work = p.kinetic_energy() - energy + lifting;
   p.work.friction += work - stop_work;
-  add_load(p, surface, n, change, work);
+  add_load(p, surface, n, change, change, work);
   return true;
 }
 

@@ -35,14 +35,17 @@ template <int D> struct NearSurface {
   Vector<D> normal;       ///< towards the sand
   Vector<D> push;         ///< m/s, change of velocity by its images in this step, and by friction
   double normal_push = 0; ///< m/s, along the normal, without friction
+  Vector<D>
+      driven{}; ///< m/s, what of `push` the wall transmits: along the normal, by friction, without slip all
 };
 
-/// Adds a change of velocity by a surface, along `normal` and across, to the load of its wall.
+/// Adds a change of velocity by a surface to the load of its wall. `driven` is the part that the wall transmits: what a
+/// smooth one's images push along it is the sand's own stress, with a sum of zero over the wall.
 template <int D>
 void add_load(MovingParticle<D>& p, const Surface<D>& surface, const Vector<D>& normal,
-              const Vector<D>& change, double work_on_sand) {
+              const Vector<D>& change, const Vector<D>& driven, double work_on_sand) {
   WallLoad& load = p.loads[surface.wall];
-  load.given += p.mass * dot(change, surface.velocity);
+  load.given += p.mass * dot(driven, surface.velocity);
   for (int a = 0; a < D; ++a) load.impulse[a] -= p.mass * change[a];
   load.normal += p.mass * dot(normal, change);
   load.work += work_on_sand;

@@ -101,6 +101,10 @@ void push_by_walls(const PairsOfStep<Geometry>& pairs, const WallsOfStep<D>& wal
   for (auto& n : near) {
     const double pull = std::min(n.normal_push, 0.0);
     for (auto* vector : {&n.push, &pushed}) add_scaled(*vector, -pull, n.normal);
+    if (n.surface->no_slip)
+      n.driven = n.push;
+    else
+      add_scaled(n.driven, std::max(n.normal_push, 0.0), n.normal);
   }
   add_scaled(p.velocity, 1, pushed);
   for (auto& n : near) {
@@ -109,13 +113,14 @@ void push_by_walls(const PairsOfStep<Geometry>& pairs, const WallsOfStep<D>& wal
     const auto change = apply_friction(wall, *n.surface, n.normal, n.normal_push, p.velocity);
     add_scaled(friction, 1, change);
     add_scaled(n.push, 1, change);
+    add_scaled(n.driven, 1, change);
   }
   Vector<D> momentum{}; // mean of the step
   add_scaled(momentum, 0.5 * p.mass, p.before);
   add_scaled(momentum, 0.5 * p.mass, p.velocity);
   p.work.wall += dot(momentum, pushed);
   p.work.friction += dot(momentum, friction);
-  for (const auto& n : near) add_load(p, *n.surface, n.normal, n.push, dot(momentum, n.push));
+  for (const auto& n : near) add_load(p, *n.surface, n.normal, n.push, n.driven, dot(momentum, n.push));
 }
 
 template decltype(separate_push<PlaneStrain>) separate_push<PlaneStrain>;
