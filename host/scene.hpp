@@ -42,12 +42,6 @@ struct Gate {
   GateMotion motion = GateMotion::lift;
   double speed = 0;  ///< m/s, upwards
   double radius = 0; ///< m, distance from the axis
-  /// Height of its lower edge, m. A gate that has not moved reaches below the floor.
-  double lower_edge(double time) const {
-    constexpr double far = std::numeric_limits<double>::infinity();
-    if (motion == GateMotion::remove) return far;
-    return motion == GateMotion::fixed ? -far : speed * time;
-  }
 };
 
 /// Numerical choices. The defaults are recommended; what others do: host/SCHEME.md.

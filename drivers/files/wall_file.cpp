@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/files/wall_file.hpp"
 #include "host/bodies/initial_particles.hpp"
-#include "host/engine/integrate.hpp"
 #include "host/scheme/geometry.hpp"
+#include "host/walls/contact.hpp"
 #include "host/walls/surfaces.hpp"
 #include <algorithm>
 #include <cmath>
@@ -134,7 +134,7 @@ void check_width(const TomlTable& table, const host::Scene& scene, const Wall& w
 /// Nearest particle of the column to a wall.
 template <int D> struct Nearest {
   double distance = host::unbounded;
-  host::Point<D> place{};
+  host::Vector<D> place{};
 };
 
 template <class Geometry> void check_column(const TomlTable& root, const host::Scene& scene) {
@@ -143,13 +143,15 @@ template <class Geometry> void check_column(const TomlTable& root, const host::S
   const auto walls = host::all_walls(scene);
   const auto tables = root.tables("wall");
   const double least = host::contact_gap * scene.spacing;
-  for (const auto& s : host::surfaces_at<D>(walls, scene.geometry, 0, 0)) {
+  std::vector<host::Surface<D>> surfaces;
+  host::find_surfaces(0, walls, scene.geometry, 0, 0, surfaces);
+  for (const auto& s : surfaces) {
     Nearest<D> nearest;
     for (int i = 0; i < column.count; ++i) {
-      host::Point<D> x;
+      host::Vector<D> x;
       for (int a = 0; a < D; ++a) x[a] = column.position[a][i];
       const double d = host::body_distance(s, x);
-      if (host::beside_shell(s, x) && d < nearest.distance) nearest = {d, x};
+      if (host::beside(s, x) && d < nearest.distance) nearest = {d, x};
     }
     if (nearest.distance >= least * (1 - 1e-9)) continue;
     const auto expected =

@@ -2,7 +2,7 @@
 #include "drivers/run/plan.hpp"
 #include "drivers/run/forecast.hpp"
 #include "drivers/run/resume.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "drivers/run/build_hash.hpp"
 #include "drivers/version.hpp"
 #include "host/engine/guard.hpp"
+#include "host/engine/lists.hpp"
 #include "host/files/hdf5_write.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/scheme/geometry.hpp"
@@ -168,6 +169,13 @@ template <class Geometry> host::RunProgress Recorder<Geometry>::progress() {
   return {result.progress(), next_sample, next_snapshot, last_snapshot, rest_time.value_or(-1), {}};
 }
 
+/// True if no wall within reach of the sand will move any more.
+template <class Geometry> bool walls_are_done(const host::Simulation<Geometry>& s) {
+  for (int w = 0; w < int(s.walls.size()); ++w)
+    if (s.time < s.walls[w].motion.end() && (s.rebuilds == 0 || host::in_reach(s, w))) return false;
+  return true;
+}
+
 template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation<Geometry>& s) {
   if (!series.empty() && series.back().time == s.time) return;
   const auto& p = s.particles;
@@ -189,11 +197,9 @@ template <class Geometry> void Recorder<Geometry>::sample(const host::Simulation
   const auto row = as_row(now, Geometry::dimension);
   result.sample(row);
 
-  bool cleared = s.scene.gate.lower_edge(s.time) > s.scene.column.height;
-  for (const auto& wall : s.scene.walls) cleared &= s.time >= wall.motion.end();
   const bool still = !series.empty() && std::abs(now.height - series.back().height) < 5e-3 * s.scene.spacing;
   const bool slow = now.kinetic < s.scene.rest_fraction * scale;
-  if (!rest_time && cleared && still && slow) rest_time = s.time;
+  if (!rest_time && walls_are_done(s) && still && slow) rest_time = s.time;
   series.push_back(now);
 }
 

@@ -6,6 +6,7 @@
 #include "drivers/run/laws.hpp"
 #include "drivers/run/recorder.hpp"
 #include "host/engine/guard.hpp"
+#include "host/engine/step.hpp"
 #include "host/material/utilities.hpp"
 #include "host/scheme/geometry.hpp"
 #include <algorithm>

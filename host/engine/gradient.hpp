@@ -33,13 +33,19 @@ inline void find_gradient(const Particles<Geometry>& p, const Kernel<D>& kernel,
   }
   GradientSums<D, Lane> sums;
   const int* neighbour = lists.begin(c);
+  const int common = lists.common(c);
   constexpr int ahead = 8; // pairs at a time, so that their square roots overlap
   Lane shape[ahead];
-  for (int k = 0; k < lists.total[c]; k += ahead, neighbour += ahead) {
-    const int n = std::min(ahead, lists.total[c] - k);
+  for (int k = 0; k < common; k += ahead, neighbour += ahead) {
+    const int n = std::min(ahead, common - k);
     for (int l = 0; l < n; ++l) shape[l] = pair_shape(kernel, position, records.motion[neighbour[l]]);
     for (int l = 0; l < n; ++l)
       add_neighbour(shape[l], position, velocity, records.motion[neighbour[l]], sums);
+  }
+  for (int k = common; k < lists.total[c]; ++k) {
+    const auto& image = records.motion[lists.begin(c)[k]];
+    add_neighbour(lists.sight_of(c, k) * pair_shape(kernel, position, image), position, velocity, image,
+                  sums);
   }
   sums.scale(kernel.pair_scale());
   correct_gradient(sums, gradient);

@@ -1,177 +1,127 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/engine/integrate.hpp"
 #include "host/scheme/geometry.hpp"
+#include "host/walls/contact.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace host {
 namespace {
 
-/// Slows the horizontal part of `v` down by friction, for a normal change of velocity of `normal`: at most to a
-/// stop. Returns the change.
-template <int D> std::array<double, D - 1> rub(const Floor& floor, double normal, double (&v)[D]) {
-  std::array<double, D - 1> change{};
-  double speed = std::abs(v[0]);
-  if constexpr (D == 3) speed = std::hypot(v[0], v[1]);
-  if (speed == 0) return change;
-  const double most = floor.no_slip ? speed : floor.friction * std::max(normal, 0.0);
-  for (int a = 0; a < D - 1; ++a) {
-    change[a] = -(v[a] / speed) * std::min(most, speed);
-    v[a] += change[a];
-  }
-  return change;
-}
-
-/// True if the particle, now at `from`, is on the side of the mirror where the mirror acts.
-template <int D> bool faces(const Mirror& mirror, const double (&from)[D], const double (&to)[D]) {
-  return !ends_below<D>(mirror) || (depth_behind(mirror, from) >= 0 && to[D - 1] >= mirror.lower_edge);
-}
-
-/// Keeps `x` at least `gap` away from the mirror and stops `v` towards it; false if nothing was to do.
-template <int D> bool hold_back(const Mirror& mirror, double gap, double (&x)[D], double (&v)[D]) {
-  if (depth_behind(mirror, x) >= gap) return false;
-  if (mirror.cylinder()) {
-    const auto n = normal_at<D>(mirror, x);
-    const double towards = n[0] * v[0] + n[1] * v[1];
-    for (int a = 0; a < 2; ++a) {
-      x[a] = -n[a] * (mirror.position - gap);
-      if (towards < 0) v[a] -= towards * n[a];
-    }
-    return true;
-  }
-  const int a = mirror.axis;
-  const double side = mirror.positive_side ? 1 : -1;
-  x[a] = mirror.position + side * gap;
-  if (side * v[a] < 0) v[a] = 0;
-  return true;
-}
-
-template <int D> double half_square(const double (&v)[D]) {
-  double sum = 0;
-  for (const double component : v) sum += 0.5 * component * component;
-  return sum;
-}
-
-/// Adds what a wall of normal `n` took up when it changed a velocity.
-template <int D>
-void book(WallLoad& load, const std::array<double, D>& n, double mass, const double (&before)[D],
-          const double (&after)[D], double work) {
+/// Particle number `l` of a cluster.
+template <class Geometry, int D = Geometry::dimension>
+MovingParticle<D> particle_of(const MovingCluster<Geometry>& m, int l, Work& work,
+                              std::span<WallLoad> loads) {
+  MovingParticle<D> p{m.mass[l], {}, {}, {}, {}, work, loads};
   for (int a = 0; a < D; ++a) {
-    const double impulse = mass * (after[a] - before[a]);
-    load.impulse[a] -= impulse;
-    load.normal += n[a] * impulse;
+    p.start[a] = m.start[a][l];
+    p.position[a] = m.position[a][l];
+    p.before[a] = m.before[a][l];
+    p.velocity[a] = m.velocity[a][l];
   }
-  load.work += work;
+  return p;
 }
 
-/// The contact of one particle (from `from` to `x` at `v`) with all mirrors, booked in `work`.
-template <int D>
-void touch_walls(const Scene& scene, const std::vector<Mirror>& mirrors, double mass, double dt,
-                 const double (&from)[D], double (&x)[D], double (&v)[D], Work& work,
-                 std::array<WallLoad, 2>& load) {
-  constexpr int up = D - 1;
-  for (const Mirror& mirror : mirrors) {
-    const double height = x[up], energy = half_square(v), falling = v[up];
-    double old[D];
-    std::copy_n(v, D, old);
-    if (!faces(mirror, from, x)) continue;
-    if (!hold_back(mirror, (mirror.wall ? contact_gap : axis_gap) * scene.spacing, x, v)) continue;
-    ++work.guarded;
-    // The velocity is that of half a step earlier: heights count from where the particle was then.
-    work.wall +=
-        mass * (half_square(v) - energy + scene.gravity * (x[up] - height - 0.5 * dt * (v[up] - falling)));
-    if (!ends_below<D>(mirror)) {
-      const double before = half_square(v);
-      rub(scene.floor, v[up] - falling, v);
-      work.friction += mass * (half_square(v) - before);
-    }
-    if (mirror.wall)
-      book<D>(load[mirror.gate], normal_at<D>(mirror, x), mass, old, v,
-              mass * (half_square(v) - energy + scene.gravity * (x[up] - height)));
+/// Work of the forces of pairs: their impulses times the mean velocity of the step.
+template <class Geometry>
+void add_pair_work(const ClusterForces<Geometry>& by, double kick_time, const MovingCluster<Geometry>& m,
+                   Work& work) {
+  Lane stress{}, viscosity{};
+  for (int a = 0; a < Geometry::dimension; ++a) {
+    const Lane impulse = m.mass * 0.5 * (m.before[a] + m.velocity[a]) * kick_time;
+    stress += impulse * by.stress[a];
+    viscosity += impulse * by.viscous[a];
   }
+  work.stress += sum(stress);
+  work.viscosity += sum(viscosity);
 }
 
-/// The push of the images, whose vertical part is the floor's, and the horizontal one the gate's where it is near.
-template <int D>
-void book_push(const Mirror* gate, double reach, double mass, const double (&from)[D],
-               const double (&push)[D], const std::array<double, D - 1>& friction, const double (&mean)[D],
-               std::array<WallLoad, 2>& load) {
-  constexpr int up = D - 1;
-  const bool at_gate = gate && faces(*gate, from, from) && depth_behind(*gate, from) < reach;
-  double none[D]{}, by_floor[D]{}, by_gate[D]{}, floor_work = mean[up] * push[up], gate_work = 0;
-  by_floor[up] = push[up];
-  for (int a = 0; a < up; ++a) {
-    by_floor[a] = friction[a] + (at_gate ? 0 : push[a]);
-    by_gate[a] = at_gate ? push[a] : 0;
-    floor_work += mean[a] * by_floor[a];
-    gate_work += mean[a] * by_gate[a];
+template <class Geometry> double largest_square_displacement(const MovingCluster<Geometry>& m) {
+  Lane square{};
+  for (int a = 0; a < Geometry::dimension; ++a) {
+    const Lane way = m.position[a] - m.start[a];
+    square += way * way;
   }
-  std::array<double, D> upwards{};
-  upwards[up] = 1;
-  book<D>(load[0], upwards, mass, none, by_floor, mass * floor_work);
-  if (at_gate) book<D>(load[1], normal_at<D>(*gate, from), mass, none, by_gate, mass * gate_work);
+  return largest(square);
 }
 
 } // namespace
 
-void Work::add(const Work& other) {
-  stress += other.stress;
-  viscosity += other.viscosity;
-  wall += other.wall;
-  friction += other.friction;
-  guarded += other.guarded;
-}
-
-void ClusterMotion::add(const ClusterMotion& other) {
+void Motion::add(const Motion& other) {
   work.add(other.work);
-  for (std::size_t w = 0; w < load.size(); ++w) load[w].add(other.load[w]);
   square = std::max(square, other.square);
 }
 
-template <class Geometry>
-ClusterMotion move_cluster(Particles<Geometry>& p, const Scene& scene, const std::vector<Mirror>& mirrors,
-                           double reach, double dt_before, double dt, const ClusterForces<Geometry>& by,
-                           int c) {
-  constexpr int D = Geometry::dimension, up = D - 1;
-  const double kick = 0.5 * (dt_before + dt);
-  const auto gate = std::ranges::find_if(mirrors, &Mirror::gate);
-  const Mirror* the_gate = gate == mirrors.end() ? nullptr : &*gate;
-  ClusterMotion motion;
-  Work& work = motion.work;
-  for (int l = 0, i = c * lanes; l < lanes && i < p.count; ++l, ++i) {
-    double from[D], x[D], before[D], v[D], push[D], mean[D], square = 0;
-    bool pushed = false;
-    std::array<double, up> by_friction{};
-    for (int a = 0; a < D; ++a) {
-      from[a] = p.position[a][i];
-      before[a] = p.velocity[a][i];
-      v[a] = before[a] +
-             kick * (by.stress[a][l] + by.viscous[a][l] + by.wall[a][l] - (a == up ? scene.gravity : 0));
-    }
-    // Friction goes with the push of the floor, over its reach; without slip the lowest layer stands.
-    if (from[up] < (scene.floor.no_slip ? scene.spacing : reach))
-      by_friction = rub(scene.floor, kick * by.wall[up][l], v);
-    for (int a = 0; a < D; ++a) {
-      const double impulse = p.mass[i] * 0.5 * (before[a] + v[a]);
-      work.stress += impulse * kick * by.stress[a][l];
-      work.viscosity += impulse * kick * by.viscous[a][l];
-      push[a] = kick * by.wall[a][l];
-      mean[a] = 0.5 * (before[a] + v[a]);
-      pushed |= push[a] != 0;
-      work.wall += impulse * push[a];
-      if (a < up) work.friction += impulse * by_friction[a];
-      x[a] = from[a] + dt * v[a];
-    }
-    if (pushed) book_push<D>(the_gate, reach, p.mass[i], from, push, by_friction, mean, motion.load);
-    touch_walls(scene, mirrors, p.mass[i], dt, from, x, v, work, motion.load);
-    for (int a = 0; a < D; ++a) {
-      square += (x[a] - from[a]) * (x[a] - from[a]);
-      p.velocity[a][i] = v[a];
-      p.position[a][i] = x[a];
-    }
-    motion.square = std::max(motion.square, square);
+template <class Geometry> MovingCluster<Geometry> cluster_at_start(const Particles<Geometry>& p, int c) {
+  MovingCluster<Geometry> m;
+  m.first = c * lanes;
+  m.used = std::min(lanes, p.count - m.first);
+  m.mass = load(&p.mass[m.first]);
+  for (int l = m.used; l < lanes; ++l) m.mass[l] = 0;
+  for (int a = 0; a < Geometry::dimension; ++a) {
+    m.position[a] = m.start[a] = load(&p.position[a][m.first]);
+    m.velocity[a] = m.before[a] = load(&p.velocity[a][m.first]);
   }
-  return motion;
+  return m;
+}
+
+template <class Geometry>
+void kick(const ClusterForces<Geometry>& by, double gravity, double kick_time, MovingCluster<Geometry>& m) {
+  constexpr int D = Geometry::dimension;
+  for (int a = 0; a < D; ++a)
+    m.velocity[a] += kick_time * (by.stress[a] + by.viscous[a] - (a == D - 1 ? gravity : 0.0));
+}
+
+template <class Geometry>
+void push_cluster(const MotionTerms<Geometry>& terms, const ClusterForces<Geometry>& by,
+                  const Particles<Geometry>& particles, MovingCluster<Geometry>& m, Work& work,
+                  std::span<WallLoad> loads, PushBuffer<Geometry::dimension>& buffer) {
+  constexpr int D = Geometry::dimension;
+  const double kick_time = terms.times.kick();
+  for (int l = 0; l < m.used; ++l) {
+    auto p = particle_of(m, l, work, loads);
+    Vector<D> push;
+    for (int a = 0; a < D; ++a) push[a] = kick_time * by.wall[a][l];
+    push_by_walls(terms.pairs, terms.walls, m.first + l, particles.density[m.first + l], push, kick_time, p,
+                  buffer);
+    for (int a = 0; a < D; ++a) m.velocity[a][l] = p.velocity[a];
+  }
+}
+
+template <class Geometry> void drift(double dt, MovingCluster<Geometry>& m) {
+  for (int a = 0; a < Geometry::dimension; ++a) m.position[a] += dt * m.velocity[a];
+}
+
+template <class Geometry>
+void touch_cluster(const WallsOfStep<Geometry::dimension>& walls, MovingCluster<Geometry>& m, Work& work,
+                   std::span<WallLoad> loads) {
+  for (int l = 0; l < m.used; ++l) {
+    auto p = particle_of(m, l, work, loads);
+    keep_off_walls(walls, p);
+    for (int a = 0; a < Geometry::dimension; ++a) {
+      m.position[a][l] = p.position[a];
+      m.velocity[a][l] = p.velocity[a];
+    }
+  }
+}
+
+template <class Geometry>
+void move_cluster(const MotionTerms<Geometry>& terms, const ClusterForces<Geometry>& by, int c,
+                  Particles<Geometry>& p, Motion& motion, std::span<WallLoad> loads,
+                  PushBuffer<Geometry::dimension>& buffer) {
+  const Nearness nearness = terms.pairs.images.nearness[c];
+  const double kick_time = terms.times.kick();
+  auto m = cluster_at_start(p, c);
+  kick(by, terms.walls.gravity, kick_time, m);
+  if (nearness == Nearness::wall) push_cluster(terms, by, p, m, motion.work, loads, buffer);
+  add_pair_work(by, kick_time, m, motion.work);
+  drift(terms.times.dt, m);
+  if (nearness != Nearness::none) touch_cluster(terms.walls, m, motion.work, loads);
+  motion.square = std::max(motion.square, largest_square_displacement(m));
+  for (int a = 0; a < Geometry::dimension; ++a) {
+    store(&p.position[a][m.first], m.position[a], m.used);
+    store(&p.velocity[a][m.first], m.velocity[a], m.used);
+  }
 }
 
 template <class Geometry> double kinetic_energy(const Particles<Geometry>& p) {
@@ -190,17 +140,14 @@ template <class Geometry> double potential_energy(const Particles<Geometry>& p, 
   return sum;
 }
 
-template ClusterMotion move_cluster(Particles<PlaneStrain>&, const Scene&, const std::vector<Mirror>&, double,
-                                    double, double, const ClusterForces<PlaneStrain>&, int);
-template ClusterMotion move_cluster(Particles<Axisymmetric>&, const Scene&, const std::vector<Mirror>&,
-                                    double, double, double, const ClusterForces<Axisymmetric>&, int);
-template ClusterMotion move_cluster(Particles<ThreeDimensional>&, const Scene&, const std::vector<Mirror>&,
-                                    double, double, double, const ClusterForces<ThreeDimensional>&, int);
-template double kinetic_energy(const Particles<PlaneStrain>&);
-template double kinetic_energy(const Particles<Axisymmetric>&);
-template double kinetic_energy(const Particles<ThreeDimensional>&);
-template double potential_energy(const Particles<PlaneStrain>&, double);
-template double potential_energy(const Particles<Axisymmetric>&, double);
-template double potential_energy(const Particles<ThreeDimensional>&, double);
+template decltype(move_cluster<PlaneStrain>) move_cluster<PlaneStrain>;
+template decltype(move_cluster<Axisymmetric>) move_cluster<Axisymmetric>;
+template decltype(move_cluster<ThreeDimensional>) move_cluster<ThreeDimensional>;
+template decltype(kinetic_energy<PlaneStrain>) kinetic_energy<PlaneStrain>;
+template decltype(kinetic_energy<Axisymmetric>) kinetic_energy<Axisymmetric>;
+template decltype(kinetic_energy<ThreeDimensional>) kinetic_energy<ThreeDimensional>;
+template decltype(potential_energy<PlaneStrain>) potential_energy<PlaneStrain>;
+template decltype(potential_energy<Axisymmetric>) potential_energy<Axisymmetric>;
+template decltype(potential_energy<ThreeDimensional>) potential_energy<ThreeDimensional>;
 
 } // namespace host

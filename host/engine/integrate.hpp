@@ -1,49 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kick and drift, with gravity, floor friction and the guards of the walls; and the work done by each
-// kind of force, so that the energy of a run can be closed.
+// Kick, drift and contact of a cluster of particles, and the work done by each kind of force, so that the energy of a
+// run can be closed.
 #pragma once
 #include "host/engine/momentum.hpp"
-#include "host/walls/mirrors.hpp"
+#include "host/walls/push.hpp"
 
 namespace host {
 
-/// Work done on the particles since the start, J (plane strain: J/m), by the forces of pairs and walls.
-struct Work {
-  double stress = 0;    ///< by the stress of pairs
-  double viscosity = 0; ///< by artificial viscosity, never positive
-  double wall = 0;      ///< by the images behind walls and by the guards
-  double friction = 0;  ///< by Coulomb friction on the floor, never positive
-  long guarded = 0;     ///< times a particle was held back at a wall or the axis
-
-  double total() const { return stress + viscosity + wall + friction; }
-  void add(const Work& other);
+/// Velocities live at half steps, so that free fall is exact for any sequence of steps: v += a (dt_before + dt)/2,
+/// x += v dt. In the first step dt_before is 0.
+struct StepTimes {
+  double dt_before = 0, dt = 0; ///< s
+  double kick() const { return 0.5 * (dt_before + dt); }
 };
 
-/// Distance, in spacings, at which a particle touches a wall: somewhat less than the half spacing at which
-/// lattices start, so that a resting layer is carried by the images' stress alone.
-inline constexpr double contact_gap = 0.4;
-/// The same for the axis: a ring much narrower than half a spacing is stiff, and its section much larger than a particle.
-inline constexpr double axis_gap = 0.4;
-
-/// Work on particles in one step, what floor and gate took up, and the square of the largest displacement, m2.
-struct ClusterMotion {
+/// What moved in a step: work on particles, and the square of the largest displacement, m2.
+struct Motion {
   Work work;
-  std::array<WallLoad, 2> load{};
   double square = 0;
-  void add(const ClusterMotion& other);
+  void add(const Motion& other);
 };
 
-/// v += a (dt_before + dt)/2, x += v dt: velocities live at half steps (dt_before is 0 in the first one), so
-/// free fall is exact for any sequence of steps. Coulomb friction opposes the tangential velocity of a particle on the floor by
-/// at most `floor.friction` times what the floor pushes it up with. A particle that would come nearer to
-/// a wall than the contact gap stays there, loses its speed towards it, and on the floor as much
-/// tangential speed as friction takes for that impulse. Of cluster c, under the forces `by`.
-template <class Geometry>
-ClusterMotion move_cluster(Particles<Geometry>& particles, const Scene& scene,
-                           const std::vector<Mirror>& mirrors, double reach, double dt_before, double dt,
-                           const ClusterForces<Geometry>& by, int c);
+/// All of a step that the particles of a cluster need to move.
+template <class Geometry> struct MotionTerms {
+  PairsOfStep<Geometry> pairs;
+  WallsOfStep<Geometry::dimension> walls;
+  StepTimes times;
+};
 
-/// Kinetic energy and potential energy above the floor, J (plane strain: J/m).
+/// The eight particles of a cluster on their way through a step.
+template <class Geometry> struct MovingCluster {
+  static constexpr int D = Geometry::dimension;
+  int first, used; ///< number of the first particle, and how many are particles, not padding
+  Lane mass;       ///< kg, 0 of padding
+  std::array<Lane, D> start, before; ///< m, m/s, at the start of the step
+  std::array<Lane, D> position, velocity;
+};
+
+/// The particles of cluster c, before the step.
+template <class Geometry>
+MovingCluster<Geometry> cluster_at_start(const Particles<Geometry>& particles, int c);
+
+/// Changes velocities by pairs and gravity.
+template <class Geometry>
+void kick(const ClusterForces<Geometry>& by, double gravity, double kick_time,
+          MovingCluster<Geometry>& cluster);
+
+/// Changes velocities by the images of walls and by friction, of the particles near walls; adds work and loads.
+template <class Geometry>
+void push_cluster(const MotionTerms<Geometry>& terms, const ClusterForces<Geometry>& by,
+                  const Particles<Geometry>& particles, MovingCluster<Geometry>& cluster, Work& work,
+                  std::span<WallLoad> loads, PushBuffer<Geometry::dimension>& buffer);
+
+/// Moves particles by their velocities.
+template <class Geometry> void drift(double dt, MovingCluster<Geometry>& cluster);
+
+/// Keeps particles off walls and on their side of planes of symmetry; adds work and loads.
+template <class Geometry>
+void touch_cluster(const WallsOfStep<Geometry::dimension>& walls, MovingCluster<Geometry>& cluster,
+                   Work& work, std::span<WallLoad> loads);
+
+/// All of these for cluster c under the forces `by`, one after the other. Clusters that are out of reach of all
+/// surfaces skip what concerns walls: their lists hold no images.
+template <class Geometry>
+void move_cluster(const MotionTerms<Geometry>& terms, const ClusterForces<Geometry>& by, int c,
+                  Particles<Geometry>& particles, Motion& motion, std::span<WallLoad> loads,
+                  PushBuffer<Geometry::dimension>& buffer);
+
+/// Kinetic energy and potential energy above height 0, J (plane strain: J/m).
 template <class Geometry> double kinetic_energy(const Particles<Geometry>& particles);
 template <class Geometry> double potential_energy(const Particles<Geometry>& particles, double gravity);
 

@@ -40,7 +40,19 @@ void add_pairs(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i, const
     for (int k = 0; k < n; ++k)
       add_pair<diffuses>(factors[k], i, records.motion[neighbour[k]], records.stress[neighbour[k]], sums);
   }
-  sums.scale(kernel.pair_scale());
+}
+
+/// Adds the images of cluster `c` that only some of its particles see.
+template <class Geometry, int D>
+void add_screened_images(const Kernel<D>& kernel, const PairSide<Geometry, Lane>& i,
+                         const Records<Geometry>& records, const NeighbourLists& lists, int c,
+                         PairSums<Geometry, Lane>& sums) {
+  for (int k = lists.common(c); k < lists.total[c]; ++k) {
+    const int j = lists.begin(c)[k];
+    auto factors = pair_factors(kernel, i, records.motion[j], records.stress[j]);
+    factors.shape *= lists.sight_of(c, k);
+    add_pair<false>(factors, i, records.motion[j], records.stress[j], sums);
+  }
 }
 
 } // namespace
@@ -55,8 +67,11 @@ ClusterForces<Geometry> forces_on(const Particles<Geometry>& p, const Kernel<Geo
   PairSums<Geometry, Lane> inside, wall;
   const int* neighbour = lists.begin(c);
   add_pairs<true>(kernel, i, records, neighbour, lists.interior[c], inside);
-  add_pairs<false>(kernel, i, records, neighbour + lists.interior[c], lists.total[c] - lists.interior[c],
+  add_pairs<false>(kernel, i, records, neighbour + lists.interior[c], lists.common(c) - lists.interior[c],
                    wall);
+  add_screened_images(kernel, i, records, lists, c, wall);
+  inside.scale(kernel.pair_scale());
+  wall.scale(kernel.pair_scale());
   OwnStress<Geometry, Lane> own;
   for (int s = 0; s < S; ++s) own.stress[s] = load(&p.stress[s][first]);
   own.inverse_weight = 1.0 / i.weight;

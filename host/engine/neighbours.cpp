@@ -160,13 +160,17 @@ template <std::size_t D> static Lane distance_square(const std::array<Lane, D>& 
   return square;
 }
 
+/// What a neighbour is to a cluster.
+enum class Neighbour { interior, wall, screened };
+
 template <class Geometry>
 void find_neighbours(const Particles<Geometry>& p, const Images& images, const Records<Geometry>& records,
-                     double reach, NeighbourLists& lists) {
+                     double reach, NeighbourLists& lists, const std::vector<char>& may_be_screened) {
   constexpr int D = Geometry::dimension;
   const auto grid = sort_into_cells(p, images, records, reach);
   lists.interior.resize(p.clusters());
   lists.total.resize(p.clusters());
+  lists.screened.resize(p.clusters());
   for (bool fits = false; !fits;) {
     lists.entries.resize(std::size_t(p.clusters()) * lists.capacity);
     int longest = 0;
@@ -184,23 +188,45 @@ void find_neighbours(const Particles<Geometry>& p, const Images& images, const R
       from = grid.cell_of(lower);
       to = grid.cell_of(upper);
       int* out = lists.entries.data() + std::size_t(c) * lists.capacity;
-      for (const bool wall : {false, true}) {
-        int n = wall ? lists.interior[c] : 0;
+      const bool screened = !may_be_screened.empty() && may_be_screened[c];
+      const auto kind_of = [&](int j) {
+        if (j < images.first_wall) return Neighbour::interior;
+        return screened && images.path(j).in_shell ? Neighbour::screened : Neighbour::wall;
+      };
+      int n = 0, common = 0;
+      for (const auto kind : {Neighbour::interior, Neighbour::wall, Neighbour::screened}) {
+        if (kind == Neighbour::screened && !screened) break;
         for (auto cell = from; cell[D - 1] <= to[D - 1]; next_row(cell, from, to))
           for (cell[0] = from[0]; cell[0] <= to[0]; ++cell[0])
             for (int k = grid.start[grid.index(cell)]; k < grid.start[grid.index(cell) + 1]; ++k) {
               const int j = grid.sorted[k];
-              if ((j >= images.first_wall) != wall) continue;
+              if (kind_of(j) != kind) continue;
               if (n < lists.capacity) out[n] = j;
               n += any_within(distance_square(x, records.motion[j].position), reach * reach);
             }
-        (wall ? lists.total : lists.interior)[c] = n;
-        longest = std::max(longest, n);
+        if (kind == Neighbour::interior) lists.interior[c] = n;
+        if (kind == Neighbour::wall) common = n;
       }
+      lists.total[c] = n;
+      lists.screened[c] = n - common;
+      longest = std::max(longest, n);
     }
     fits = longest <= lists.capacity;
     if (!fits) lists.capacity = longest + longest / 16;
   }
+}
+
+/// Finds the clusters with screened images.
+static void make_room_for_sight(NeighbourLists& lists) {
+  lists.screened_clusters.clear();
+  lists.sight_start.resize(lists.screened.size());
+  int size = 0;
+  for (std::size_t c = 0; c < lists.screened.size(); ++c) {
+    lists.sight_start[c] = size;
+    size += lanes * lists.screened[c];
+    if (lists.screened[c] > 0) lists.screened_clusters.push_back(int(c));
+  }
+  lists.sight.resize(size);
 }
 
 template <class Geometry>
@@ -211,11 +237,13 @@ void prune(const Particles<Geometry>& p, const Records<Geometry>& records, doubl
   lists.entries.resize(outer.entries.size());
   lists.interior.resize(p.clusters());
   lists.total.resize(p.clusters());
+  lists.screened.resize(p.clusters());
 #pragma omp parallel for schedule(static)
   for (int c = 0; c < p.clusters(); ++c) {
     std::array<Lane, D> x;
     for (int a = 0; a < D; ++a) x[a] = load(&p.position[a][c * lanes]);
-    const int *next = outer.begin(c), *middle = next + outer.interior[c], *end = next + outer.total[c];
+    const int *next = outer.begin(c), *middle = next + outer.interior[c], *end = next + outer.total[c],
+              *seen_by_all = next + outer.common(c);
     int *const begin = lists.entries.data() + std::size_t(c) * lists.capacity, *out = begin;
     const auto keep_until = [&](const int* stop) {
       for (; next < stop; ++next) {
@@ -225,8 +253,11 @@ void prune(const Particles<Geometry>& p, const Records<Geometry>& records, doubl
       return int(out - begin);
     };
     lists.interior[c] = keep_until(middle);
+    const int common = keep_until(seen_by_all);
     lists.total[c] = keep_until(end);
+    lists.screened[c] = lists.total[c] - common;
   }
+  make_room_for_sight(lists);
 }
 
 template decltype(sort_particles<PlaneStrain>) sort_particles<PlaneStrain>;

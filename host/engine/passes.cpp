@@ -4,6 +4,7 @@
 #include "host/engine/guard.hpp"
 #include "host/engine/material_calls.hpp"
 #include <algorithm>
+#include <omp.h>
 
 namespace host {
 namespace {
@@ -58,43 +59,41 @@ double deform(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
 }
 
 template <class Geometry>
-ClusterMotion move(Particles<Geometry>& p, const Kernel<Geometry::dimension>& kernel,
-                   const NeighbourLists& lists, const Scene& scene, const std::vector<Mirror>& mirrors,
-                   double dt_before, double dt, const Records<Geometry>& records,
-                   std::vector<ClusterMotion>& motions) {
+Motion move(Particles<Geometry>& p, const Medium& medium, const MotionTerms<Geometry>& terms,
+            MotionBuffers<Geometry::dimension>& buffers, std::vector<WallLoad>& loads) {
   constexpr int together = StressBlocks::points / lanes; // as in `deform`: what a thread has at hand
   const int blocks = (p.clusters() + together - 1) / together;
-  const Medium medium = medium_of(scene);
-  motions.assign(blocks, {});
+  const std::size_t walls = loads.size();
+  buffers.threads.resize(std::size_t(omp_get_max_threads()));
+  buffers.motion.assign(blocks, {});
+  buffers.loads.assign(blocks * walls, {});
 #pragma omp parallel for schedule(static)
-  for (int b = 0; b < blocks; ++b)
+  for (int b = 0; b < blocks; ++b) {
+    const auto block_loads = std::span(buffers.loads).subspan(b * walls, walls);
     for (int c = b * together; c < std::min((b + 1) * together, p.clusters()); ++c) {
-      const auto forces = forces_on(p, kernel, lists, records, medium, c);
-      motions[b].add(move_cluster(p, scene, mirrors, kernel.support, dt_before, dt, forces, c));
+      const auto forces = forces_on(p, terms.pairs.kernel, terms.pairs.lists, terms.pairs.records, medium, c);
+      move_cluster(terms, forces, c, p, buffers.motion[b], block_loads,
+                   buffers.threads[omp_get_thread_num()]);
       for (std::size_t s = 0; s < p.stress.size(); ++s) {
         double* stress = &p.stress[s][c * lanes];
-        store(stress, load(stress) + dt * forces.diffusion[s], std::min(lanes, p.count - c * lanes));
+        store(stress, load(stress) + terms.times.dt * forces.diffusion[s],
+              std::min(lanes, p.count - c * lanes));
       }
     }
-  ClusterMotion all;
-  for (const ClusterMotion& motion : motions) all.add(motion);
+  }
+  Motion all;
+  for (int b = 0; b < blocks; ++b) {
+    all.add(buffers.motion[b]);
+    for (std::size_t w = 0; w < walls; ++w) loads[w].add(buffers.loads[b * walls + w]);
+  }
   return all;
 }
 
-template double deform(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Medium&,
-                       const Material&, const Increment&, StressBlocks&, Records<PlaneStrain>&);
-template ClusterMotion move(Particles<PlaneStrain>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
-                            const std::vector<Mirror>&, double, double, const Records<PlaneStrain>&,
-                            std::vector<ClusterMotion>&);
-template double deform(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Medium&,
-                       const Material&, const Increment&, StressBlocks&, Records<Axisymmetric>&);
-template ClusterMotion move(Particles<Axisymmetric>&, const Kernel<2>&, const NeighbourLists&, const Scene&,
-                            const std::vector<Mirror>&, double, double, const Records<Axisymmetric>&,
-                            std::vector<ClusterMotion>&);
-template double deform(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&, const Medium&,
-                       const Material&, const Increment&, StressBlocks&, Records<ThreeDimensional>&);
-template ClusterMotion move(Particles<ThreeDimensional>&, const Kernel<3>&, const NeighbourLists&,
-                            const Scene&, const std::vector<Mirror>&, double, double,
-                            const Records<ThreeDimensional>&, std::vector<ClusterMotion>&);
+template decltype(deform<PlaneStrain>) deform<PlaneStrain>;
+template decltype(deform<Axisymmetric>) deform<Axisymmetric>;
+template decltype(deform<ThreeDimensional>) deform<ThreeDimensional>;
+template decltype(move<PlaneStrain>) move<PlaneStrain>;
+template decltype(move<Axisymmetric>) move<Axisymmetric>;
+template decltype(move<ThreeDimensional>) move<ThreeDimensional>;
 
 } // namespace host

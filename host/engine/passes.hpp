@@ -16,12 +16,17 @@ double deform(Particles<Geometry>& particles, const Kernel<Geometry::dimension>&
               const NeighbourLists& lists, const Medium& medium, const Material& material,
               const Increment& increment, StressBlocks& blocks, Records<Geometry>& records);
 
-/// Forces, velocities and positions of all particles, from both records; stress diffuses. `motions` is room for
-/// the results of blocks. Returns their sum in the order of the blocks, the same for any number of threads.
+/// Memory for the results of blocks of particles and for the threads, kept so that a step allocates none.
+template <int D> struct MotionBuffers {
+  std::vector<Motion> motion;         ///< one for each block of particles
+  std::vector<WallLoad> loads;        ///< one for each block and wall, the walls of a block side by side
+  std::vector<PushBuffer<D>> threads; ///< one for each
+};
+
+/// Forces, velocities and positions of all particles, from both records; stress diffuses. Adds the loads of the walls.
+/// Returns the sum of the blocks' motion in their order, the same for any number of threads.
 template <class Geometry>
-ClusterMotion move(Particles<Geometry>& particles, const Kernel<Geometry::dimension>& kernel,
-                   const NeighbourLists& lists, const Scene& scene, const std::vector<Mirror>& mirrors,
-                   double dt_before, double dt, const Records<Geometry>& records,
-                   std::vector<ClusterMotion>& motions);
+Motion move(Particles<Geometry>& particles, const Medium& medium, const MotionTerms<Geometry>& terms,
+            MotionBuffers<Geometry::dimension>& buffers, std::vector<WallLoad>& loads);
 
 } // namespace host

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run: its data, and the step as a list of stages.
+// A run: its data.
 #pragma once
-#include "host/engine/gradient.hpp"
 #include "host/engine/passes.hpp"
-#include "host/walls/wall_room.hpp"
+#include "host/walls/surfaces.hpp"
 
 namespace host {
 
@@ -12,12 +11,12 @@ inline constexpr std::array stage_names{"neighbours", "wave speed", "gradient an
                                         "forces and motion"};
 
 template <class Geometry> struct Simulation {
+  static constexpr int D = Geometry::dimension;
   Scene scene;
-  Kernel<Geometry::dimension> kernel;
+  Kernel<D> kernel;
   Particles<Geometry> particles{};
-  std::vector<Mirror> mirrors{};
-  std::vector<Wall> walls{};                            ///< floor, gate and those of the list
-  std::vector<Surface<Geometry::dimension>> surfaces{}; ///< theirs, if the scene has a list of walls
+  std::vector<Wall> walls{};          ///< floor, gate and those of the list
+  std::vector<Surface<D>> surfaces{}; ///< planes of symmetry and walls, at `time`
   StressBlocks blocks{};
 
   // Valid until particles have moved half the skin.
@@ -41,24 +40,24 @@ template <class Geometry> struct Simulation {
   std::vector<WallLoad> loads{}; ///< one for each of `walls`
   double initial_potential_energy = 0;
   std::array<double, stage_names.size()> stage_seconds{};
-  std::vector<ClusterMotion> motions{}; ///< of the last step
-  WallRoom<Geometry::dimension> wall_room{};
+  std::vector<Surface<D>> surfaces_ahead{}; ///< at the end of the step
+  MotionBuffers<D> buffers{};
 };
 
 /// The scene at time 0. Throws std::runtime_error for a scene without particles.
 template <class Geometry> Simulation<Geometry> start_simulation(const Scene& scene);
 
-/// Sorts the particles and finds images and neighbours anew; `step` does so whenever a particle has moved half
-/// the skin.
-template <class Geometry> void update_lists(Simulation<Geometry>& simulation);
+/// What particles need to move in this step, `surfaces_ahead` being there. Refers to the simulation.
+template <class Geometry> MotionTerms<Geometry> motion_terms(const Simulation<Geometry>& s) {
+  return {{s.kernel, s.lists, s.records, s.images},
+          {s.walls, s.surfaces, s.surfaces_ahead, s.images.within_reach, s.scene.spacing, s.scene.gravity},
+          {s.dt_before, s.dt}};
+}
 
 /// Bytes of all particle data, records and images, and of the neighbour lists.
 struct Memory {
   std::size_t data = 0, lists = 0;
 };
 template <class Geometry> Memory memory_of(const Simulation<Geometry>& simulation);
-
-/// One step. Throws std::runtime_error if the material fails.
-template <class Geometry> void step(Simulation<Geometry>& simulation);
 
 } // namespace host

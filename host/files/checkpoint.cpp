@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/files/checkpoint.hpp"
+#include "host/engine/lists.hpp"
 #include "host/files/checkpoint_items.hpp"
 #include "host/files/hdf5_write.hpp"
 #include "host/files/whole_file.hpp"
@@ -10,7 +11,7 @@
 namespace host {
 namespace {
 
-constexpr int checkpoint_version = 4;
+constexpr int checkpoint_version = 5;
 constexpr auto kind = "checkpoint_version"; ///< attribute that only checkpoints have
 constexpr hsize_t values_per_chunk = 65536;
 
@@ -165,14 +166,22 @@ void check_lengths(const std::filesystem::path& path, Simulation<Geometry>& s, s
   const bool listed = s.rebuilds > 0;
   const std::size_t clusters = listed ? std::size_t(s.particles.clusters()) : 0;
   fits = fits && s.outer_lists.interior.size() == clusters && s.outer_lists.total.size() == clusters &&
+         s.outer_lists.screened.size() == clusters &&
+         (!listed || s.images.clearance.size() == s.surfaces.size()) &&
          s.outer_lists.entries.size() >= clusters * std::size_t(s.outer_lists.capacity);
   const int records = s.particles.padded() + int(s.images.list.size());
   for (std::size_t c = 0; fits && c < clusters; ++c) {
     const int total = s.outer_lists.total[c], *entries = s.outer_lists.begin(int(c));
-    fits = s.outer_lists.interior[c] >= 0 && s.outer_lists.interior[c] <= total &&
-           total <= s.outer_lists.capacity &&
+    fits = s.outer_lists.interior[c] >= 0 && s.outer_lists.interior[c] <= s.outer_lists.common(int(c)) &&
+           s.outer_lists.screened[c] >= 0 && total <= s.outer_lists.capacity &&
            std::all_of(entries, entries + total, [&](int j) { return j >= 0 && j < records; });
   }
+  const auto listed_before = [&](std::size_t k) {
+    const Image& image = s.images.list[k];
+    return image.source >= 0 && image.source < s.images.first + int(k) && image.surface >= 0 &&
+           image.surface < int(s.surfaces.size());
+  };
+  for (std::size_t k = 0; fits && k < s.images.list.size(); ++k) fits = listed_before(k);
   if (!fits) refuse(path, "its particles are not those of the scene");
 }
 
@@ -231,6 +240,7 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation<Geomet
   check_lengths(path, s, padded);
   s.moved_when_pruned = -1;
   if (s.rebuilds > 0) {
+    complete_images(s.surfaces, list_reach(s), s.images);
     s.records.motion.resize(padded + s.images.list.size());
     s.records.stress.resize(padded + s.images.list.size());
   }

@@ -46,11 +46,13 @@ template <class Geometry, class F> void each_stored_item(Simulation<Geometry>& s
   item("list_entries", s.outer_lists.entries);
   item("list_interior", s.outer_lists.interior);
   item("list_total", s.outer_lists.total);
+  item("list_screened", s.outer_lists.screened);
+  item("surface_clearance", s.images.clearance);
   item("image_first", s.images.first);
   item("image_first_wall", s.images.first_wall);
   static_assert(sizeof(Image) == 2 * sizeof(int), "images are stored as pairs of numbers");
-  std::vector<int> pairs; // source, mirror
-  for (const Image& image : s.images.list) pairs.insert(pairs.end(), {image.source, image.mirror});
+  std::vector<int> pairs; // source, surface
+  for (const Image& image : s.images.list) pairs.insert(pairs.end(), {image.source, image.surface});
   item("images", pairs);
   s.images.list.resize(pairs.size() / 2);
   for (std::size_t k = 0; k < s.images.list.size(); ++k) s.images.list[k] = {pairs[2 * k], pairs[2 * k + 1]};

@@ -18,19 +18,11 @@ WallVector WallMotion::displacement(double at) const {
   return sum;
 }
 
-double WallMotion::fastest(double from, double to) const {
-  double most = 0;
-  for (std::size_t k = 0; k + 1 < time.size(); ++k) {
-    const double first = std::max(from, time[k]), last = std::min(to, time[k + 1]);
-    if (first > last) continue;
-    for (const double at : {first, last}) { // largest at an end of a straight piece
-      const double share = (at - time[k]) / (time[k + 1] - time[k]);
-      double square = 0;
-      for (int a = 0; a < 3; ++a) square += std::pow(std::lerp(velocity[k][a], velocity[k + 1][a], share), 2);
-      most = std::max(most, std::sqrt(square));
-    }
-  }
-  return most;
+WallVector WallMotion::between(std::size_t k, double at) const {
+  const double share = (at - time[k]) / (time[k + 1] - time[k]);
+  WallVector v;
+  for (int a = 0; a < 3; ++a) v[a] = std::lerp(velocity[k][a], velocity[k + 1][a], share);
+  return v;
 }
 
 } // namespace host

@@ -2,6 +2,7 @@
 // Rigid walls as a scene describes them: plane, cylinder or box, at rest or moving on a prescribed path, smooth,
 // with Coulomb friction or without slip. How they act: host/walls/WALLS.md.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -21,10 +22,21 @@ struct WallMotion {
   std::vector<double> time;         ///< s, increasing; empty: the wall is fixed
   std::vector<WallVector> velocity; ///< m/s, one for each time
 
-  WallVector displacement(double at) const;     ///< m, since time 0
-  double fastest(double from, double to) const; ///< m/s, largest speed between two times
+  WallVector displacement(double at) const; ///< m, since time 0
+  /// Largest speed(velocity), m/s, between two times, of a function that is convex.
+  template <class F> double largest(double from, double to, F&& speed) const {
+    double most = 0;
+    for (std::size_t k = 0; k + 1 < time.size(); ++k) {
+      const double first = std::max(from, time[k]), last = std::min(to, time[k + 1]);
+      if (first > last) continue;
+      for (const double at : {first, last}) // largest at an end of a straight piece
+        most = std::max(most, speed(between(k, at)));
+    }
+    return most;
+  }
   /// Last time at which the wall moves, s; 0 for a fixed one.
   double end() const { return time.empty() ? 0 : time.back(); }
+  WallVector between(std::size_t k, double at) const; ///< m/s, in the piece that begins at time[k]
 };
 
 struct Wall {

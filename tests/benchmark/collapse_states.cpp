@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/benchmark/collapse_states.hpp"
 #include "drivers/files/scene_file.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "drivers/files/csv_write.hpp"
 #include "drivers/files/scene_file.hpp"
 #include "host/engine/metrics.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/charts/increment_record.hpp"
 #include "tests/charts/rates.hpp"

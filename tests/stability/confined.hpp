@@ -28,11 +28,11 @@ void confined_step(host::Simulation<host::PlaneStrain>& s, double pressure, Driv
   };
   add(pressure);
   write_stress_records(p, s.scene, s.kernel.h, stages, s.records);
-  host::reflect_stress(s.images, s.mirrors, s.records);
+  host::reflect_stress(s.images, s.surfaces, medium_of(s.scene), s.records);
   update_acceleration(p, s.kernel, s.lists, s.records, s.scene, stages);
   add(-pressure);
   drive(p, stages);
-  s.work.add(integrate(p, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt, stages));
+  s.work.add(integrate(s, stages));
   diffuse(p, s.dt, stages);
   s.time += s.dt;
   s.dt_before = s.dt;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles that leave the sand: thrown up at the front, out of reach of all but a few. Their volumes must not drift, or
 // they come down on a floor that throws them up again, for ever.
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "tests/verification/scenes.hpp"
 
 namespace {

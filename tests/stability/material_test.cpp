@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Faults of the material that a point shows and a column suffers from: dilatancy at the trial state, gaps forgotten.
 #include "host/engine/metrics.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/stability/naive_sand.hpp"
 #include "tests/stability/naive_scheme.hpp"

@@ -31,7 +31,8 @@ struct Naive {
 inline Stages naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& naive = {}) {
   auto& p = s.particles;
   const double h = s.kernel.h;
-  host::move_gate(s.mirrors, s.scene, s.time);
+  host::find_surfaces(host::planes_of_symmetry(s.scene), s.walls, s.scene.geometry, s.time, s.dt_before,
+                      s.surfaces);
   host::update_lists(s);
   host::update_wave_speed(p, s.scene.material, s.blocks);
   double fastest = 0;
@@ -60,8 +61,7 @@ inline Stages naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& na
   });
   update_stress(p, s.scene.material, {s.time + s.dt, s.time + s.dt, s.dt}, s.blocks, found);
   write_stress_records(p, s.scene, h, found, s.records);
-  for (auto& mirror : s.mirrors) mirror.weight_gradient = 0; // an image is a mirror image and no more
-  host::reflect_stress(s.images, s.mirrors, s.records);
+  host::reflect_stress(s.images, s.surfaces, {}, s.records); // without weight: a mirror image and no more
 
   each_pair([&](int i, int j, bool wall, double x, double y, double w) {
     const auto& r = s.records.stress[j];
@@ -81,7 +81,7 @@ inline Stages naive_step(host::Simulation<host::PlaneStrain>& s, const Naive& na
     viscosity[0][i] += viscous * x * w;
     viscosity[1][i] += viscous * y * w;
   });
-  s.work.add(integrate(p, s.scene, s.mirrors, s.kernel.support, s.dt_before, s.dt, found));
+  s.work.add(integrate(s, found));
   s.time += s.dt;
   s.dt_before = s.dt;
   ++s.steps;

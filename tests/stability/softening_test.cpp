@@ -26,7 +26,9 @@ Response compress(double spacing) {
   scene.column = {width, height};
   scene.gravity = 0;
   auto s = host::start_simulation<PlaneStrain>(scene);
-  s.mirrors.clear();
+  s.scene.symmetric = false;
+  s.walls.clear();
+  s.surfaces.clear();
   auto& p = s.particles;
   const stability::Places lattice(p);
   for (auto& state : p.state) std::ranges::fill(state, 0.0);

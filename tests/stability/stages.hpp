@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What tests need that run the stages of a step one by one in the plane.
 #pragma once
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "tests/unit/host_stages.hpp"
 
 namespace stability {

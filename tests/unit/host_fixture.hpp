@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the tests of the pair loops share: disordered particles, arranged and listed as a step does it.
 #pragma once
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/unit/host_stages.hpp"
 #include <array>
@@ -49,17 +49,23 @@ Place<Geometry> in_block(int i, int across, double corner, Random& random, doubl
   return place;
 }
 
-/// Sorts by cells of `cell`, m, and makes the images of what is within `reach`, m, of a mirror.
+/// Puts the walls of the scene where they are at `time`, s.
+template <class Geometry> void place_walls(host::Simulation<Geometry>& s, double time = 0) {
+  s.walls = host::all_walls(s.scene);
+  host::find_surfaces(host::planes_of_symmetry(s.scene), s.walls, s.scene.geometry, time, 0, s.surfaces);
+}
+
+/// Sorts by cells of `cell`, m, and makes the images of what is within `reach`, m, of a surface.
 template <class Geometry> void arrange(host::Simulation<Geometry>& s, double cell, double reach) {
   sort_particles(s.particles, cell);
-  s.images = find_images(s.particles, s.mirrors, reach);
+  find_images(s.particles, s.surfaces, reach, 0.0, s.images);
   s.records.motion.resize(s.particles.padded() + s.images.list.size());
   s.records.stress.resize(s.records.motion.size());
 }
 
 template <class Geometry> void show(host::Simulation<Geometry>& s) {
   show_motion(s.particles, s.records);
-  reflect_motion(s.images, s.mirrors, s.records);
+  reflect_motion(s.images, s.surfaces, s.records);
 }
 
 template <class Geometry> void find_lists(host::Simulation<Geometry>& s, double reach) {

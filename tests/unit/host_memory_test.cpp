@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a particle costs in memory, by the sizes of the arrays and by what the process grows; and that a step asks for
 // none.
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/verification/walls_fixture.hpp"
 #include <atomic>

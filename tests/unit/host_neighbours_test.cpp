@@ -28,7 +28,7 @@ Simulation<Geometry> scattered(int count, double width, int strays, std::uint64_
   scene.gate.radius = side;
   scene.gate.motion = GateMotion::fixed;
   auto s = empty_cloud<Geometry>(count, scene, 2);
-  s.mirrors = scene_mirrors(scene);
+  place_walls(s);
   for (int i = 0; i < count; ++i) {
     const bool stray = i % 50 == 7 && strays-- > 0;
     auto& from = stray ? far : place;
@@ -142,7 +142,7 @@ template <class Geometry> void expect_pruned(double width) {
   find_lists(s, 1.2 * s.kernel.support);
   Stages<Geometry> stages(p);
   write_stress_records(p, s.scene, s.kernel.h, stages, s.records);
-  reflect_stress(s.images, s.mirrors, s.records);
+  reflect_stress(s.images, s.surfaces, medium_of(s.scene), s.records);
   const auto sums = [&] {
     update_gradient(p, s.kernel, s.lists, s.records, stages);
     update_acceleration(p, s.kernel, s.lists, s.records, s.scene, stages);

@@ -4,9 +4,9 @@
 // (host/engine/passes.cpp).
 #pragma once
 #include "host/engine/gradient.hpp"
-#include "host/engine/integrate.hpp"
 #include "host/engine/material_calls.hpp"
 #include "host/engine/momentum.hpp"
+#include "host/engine/simulation.hpp"
 #include "host/engine/stress.hpp"
 
 namespace host_test {
@@ -84,12 +84,13 @@ void update_acceleration(const host::Particles<Geometry>& p, const host::Kernel<
   }
 }
 
-/// Kick and drift; returns the work of the step. Stress diffuses in `diffuse`.
+/// Kick, push of walls, drift and contact; returns the work of the step. Stress diffuses in `diffuse`.
 template <class Geometry>
-host::Work integrate(host::Particles<Geometry>& p, const host::Scene& scene,
-                     const std::vector<host::Mirror>& mirrors, double reach, double dt_before, double dt,
+host::Work integrate(const host::MotionTerms<Geometry>& terms, host::Particles<Geometry>& p,
                      const Stages<Geometry>& stages) {
-  host::Work all;
+  host::Motion motion;
+  std::vector<host::WallLoad> loads(terms.walls.walls.size());
+  host::PushBuffer<Geometry::dimension> buffer;
   for (int c = 0; c < p.clusters(); ++c) {
     host::ClusterForces<Geometry> by{};
     for (int a = 0; a < Geometry::dimension; ++a) {
@@ -97,9 +98,17 @@ host::Work integrate(host::Particles<Geometry>& p, const host::Scene& scene,
       by.viscous[a] = host::load(&stages.viscous_acceleration[a][c * host::lanes]);
       by.wall[a] = host::load(&stages.wall_acceleration[a][c * host::lanes]);
     }
-    all.add(move_cluster(p, scene, mirrors, reach, dt_before, dt, by, c).work);
+    move_cluster(terms, by, c, p, motion, loads, buffer);
   }
-  return all;
+  return motion.work;
+}
+
+/// The same for a simulation whose lists are up to date.
+template <class Geometry>
+host::Work integrate(host::Simulation<Geometry>& s, const Stages<Geometry>& stages) {
+  host::find_surfaces(host::planes_of_symmetry(s.scene), s.walls, s.scene.geometry, s.time + s.dt, s.dt,
+                      s.surfaces_ahead);
+  return integrate(motion_terms(s), s.particles, stages);
 }
 
 template <class Geometry>

@@ -3,7 +3,7 @@
 // number of threads nor a second run changes anything.
 #include "drivers/run/laws.hpp"
 #include "host/engine/metrics.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/files/output.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/verification/scenes.hpp"

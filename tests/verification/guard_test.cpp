@@ -2,7 +2,7 @@
 // A step that is too large never goes unseen: the scene file refuses it, and where it comes in otherwise the run ends
 // with particle and time. The counter-case: the same column at the recommended step.
 #include "host/engine/guard.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/verification/walls_fixture.hpp"
 #include <H5Cpp.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motions whose answer is known: rest, free fall, rigid rotation, extension to separation and back.
 #include "host/bodies/initial_particles.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "host/scheme/rotation.hpp"
 #include "tests/unit/host_stages.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes with walls, written as a user would write them, and what is measured on them.
 #pragma once
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/verification/scenes.hpp"
 #include <cmath>
@@ -12,7 +12,7 @@ namespace tests {
 inline constexpr double g = 9.81;
 
 struct WallCase {
-  std::string geometry = "plane_strain", column, material, walls;
+  std::string geometry = "plane_strain", column = "", material = "", walls = "";
   double spacing = 0.01, end_time = 10;
   std::string numerics = "";
 };
@@ -59,6 +59,35 @@ template <class Geometry> host::WallVector momentum_of(const host::Particles<Geo
 
 template <class Geometry> void run_until(host::Simulation<Geometry>& s, double time) {
   while (s.time < time) host::step(s);
+}
+
+/// Expects two simulations to hold the same numbers to the last bit, walls being the same in their order.
+template <class Geometry>
+void expect_same_bits(const host::Simulation<Geometry>& s, const host::Simulation<Geometry>& t) {
+  EXPECT_EQ(s.steps, t.steps);
+  EXPECT_EQ(s.time, t.time);
+  EXPECT_EQ(s.particles.id, t.particles.id);
+  std::vector<host::Array> arrays;
+  s.particles.each_persistent([&](const host::Array& a) { arrays.push_back(a); });
+  std::size_t k = 0;
+  t.particles.each_persistent([&](const host::Array& a) { EXPECT_EQ(a, arrays[k++]) << "array " << k; });
+  EXPECT_EQ(s.work.total(), t.work.total());
+  for (std::size_t w = 0; w < std::min(s.loads.size(), t.loads.size()); ++w) {
+    EXPECT_EQ(s.loads[w].impulse, t.loads[w].impulse);
+    EXPECT_EQ(s.loads[w].normal, t.loads[w].normal);
+    EXPECT_EQ(s.loads[w].work, t.loads[w].work);
+    EXPECT_EQ(s.loads[w].given, t.loads[w].given);
+  }
+}
+
+/// Runs a scene whose walls are written in another way until the time of `s`, and expects the same numbers.
+template <class Geometry>
+void expect_same_if_written(const std::string& walls, WallCase c, const std::string& name,
+                            const host::Simulation<Geometry>& s) {
+  c.walls = walls;
+  auto t = host::start_simulation<Geometry>(wall_scene(c, name));
+  run_until(t, s.time);
+  expect_same_bits(s, t);
 }
 
 /// Largest gap between sand and a level base at height `base`, spacings: for places on it half a spacing apart, what the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The push of walls taken apart by surfaces adds up to the push of all of them.
-#include "host/walls/wall_forces.hpp"
+#include "host/walls/push.hpp"
 #include "tests/verification/walls_fixture.hpp"
 
 namespace {
@@ -15,9 +15,10 @@ template <class Geometry> void expect_parts_add_up(const WallCase& c, const std:
   for (int a = 0; a < D; ++a)
     std::fill_n(s.particles.velocity[a].begin(), s.particles.count, a == D - 1 ? -1.0 : 0.5);
   for (int k = 0; k < 60; ++k) host::step(s);
-  std::vector<int> all;
-  for (std::size_t k = 0; k < s.surfaces.size(); ++k) all.push_back(int(k));
-  host::SplitPush<D> push;
+  const host::PairsOfStep<Geometry> pairs{s.kernel, s.lists, s.records, s.images};
+  std::vector<host::NearSurface<D>> near;
+  for (std::size_t k = 0; k < s.surfaces.size(); ++k)
+    if (!s.surfaces[k].is_symmetry()) near.push_back({&s.surfaces[k], int(k), 0, {}, {}});
   double error = 0, size = 0;
   for (int cluster = 0; cluster < s.particles.clusters(); ++cluster) {
     // Records are of the last step, and so must be stress and density of the cluster itself.
@@ -29,10 +30,12 @@ template <class Geometry> void expect_parts_add_up(const WallCase& c, const std:
     const auto forces =
         host::forces_on(sand, s.kernel, s.lists, s.records, host::medium_of(s.scene), cluster);
     for (int l = 0; l < host::lanes && cluster * host::lanes + l < sand.count; ++l) {
-      host::split_push(s, cluster * host::lanes + l, all, push);
+      const int i = cluster * host::lanes + l;
+      for (auto& n : near) n.push = {};
+      const auto by_others = host::separate_push(pairs, i, sand.density[i], near);
       for (int a = 0; a < D; ++a) {
-        double sum = push.by_corners[a];
-        for (const auto& part : push.by_surface) sum += part[a];
+        double sum = by_others[a];
+        for (const auto& n : near) sum += n.push[a];
         error = std::max(error, std::abs(sum - forces.wall[a][l]));
         size = std::max(size, std::abs(forces.wall[a][l]));
       }

@@ -48,6 +48,33 @@ TEST(Incline, ABlockSticksBelowTheAngleOfFriction) {
   EXPECT_NEAR(found, 0, 0.01 * g);
 }
 
+TEST(Incline, ABlockOnTheFloorSlowsDownAsCoulombSays) {
+  constexpr double friction = 0.3, speed = 1;
+  const WallCase c{.column = "radius = 0.08\nheight = 0.05\nsymmetric = false",
+                   .material = elastic(2e5, 0.2, 0.25)};
+  const std::string rest = "[[wall]]\nname = \"far\"\nshape = \"plane\"\npoint = [5, 0]\nnormal = [-1, 0]\n"
+                           "friction = 0\n";
+  const auto slide_on = [&](const std::string& walls, const std::string& name) {
+    auto with_walls = c;
+    with_walls.walls = walls + rest;
+    auto s = host::start_simulation<PlaneStrain>(wall_scene(with_walls, name));
+    std::fill_n(s.particles.velocity[0].begin(), s.particles.count, speed);
+    run_until(s, 0.1);
+    return s;
+  };
+  auto s = slide_on(fmt::format("[floor]\nfriction = {}\n", friction), "slide_floor");
+  const auto t = slide_on(fmt::format("[[wall]]\nname = \"base\"\nshape = \"plane\"\npoint = [0, 0]\n"
+                                      "normal = [0, 1]\nfriction = {}\n",
+                                      friction),
+                          "slide_base");
+  expect_same_bits(s, t);
+  const double mass = mass_of(s.particles), start = s.time, before = momentum_of(s.particles)[0] / mass;
+  run_until(s, start + 0.1);
+  const double found = (before - momentum_of(s.particles)[0] / mass) / (s.time - start);
+  std::printf("level floor, friction 0.3: slows down by %.4f m/s2, exact %.4f\n", found, friction * g);
+  EXPECT_NEAR(found, friction * g, 0.01 * friction * g);
+}
+
 /// Walls of a vessel in each geometry, smooth.
 const std::string smooth_base =
     "[[wall]]\nname = \"base\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\n"
@@ -57,9 +84,13 @@ std::string smooth_tube(const std::string& radius) {
          radius + "\n";
 }
 
-/// Loads on base (first wall) and side (second) against weight and K0 rho g h^2 / 2 on `width` of side.
+const std::string smooth_floor = "[floor]\nfriction = 0\n", closed_gate = "[gate]\nmotion = \"fixed\"\n";
+
+/// Loads on base (first wall) and side (second) against weight and K0 rho g h^2 / 2 on `width` of side; the same numbers
+/// with the walls in their `short_form`.
 template <class Geometry>
-void expect_hydrostatic(const WallCase& c, const std::string& name, double width, double settle = 0.05) {
+void expect_hydrostatic(const WallCase& c, const std::string& short_form, const std::string& name,
+                        double width, double settle = 0.05) {
   auto s = host::start_simulation<Geometry>(wall_scene(c, name));
   run_until(s, settle);
   const auto before = s.loads;
@@ -82,13 +113,14 @@ void expect_hydrostatic(const WallCase& c, const std::string& name, double width
   EXPECT_NEAR(all, weight, 0.01 * weight);
   EXPECT_NEAR(load(0, normal), weight, 0.01 * weight);
   EXPECT_NEAR(load(1, normal), side, 0.01 * side);
+  expect_same_if_written(short_form, c, name + "_short", s);
 }
 
 TEST(Hydrostatic, LoadsOfAPlaneLayer) {
   expect_hydrostatic<PlaneStrain>({.column = "radius = 0.1\nheight = 0.2",
                                    .material = elastic(1e5, 0.45, 0.45 / 0.55),
                                    .walls = smooth_base + smooth_tube("0.1")},
-                                  "hydrostatic_elastic", 1);
+                                  smooth_floor + closed_gate, "hydrostatic_elastic", 1);
 }
 
 TEST(Hydrostatic, LoadsOfSandInATube) {
@@ -97,20 +129,22 @@ TEST(Hydrostatic, LoadsOfSandInATube) {
                                     .material = sand("TS", 0.4451),
                                     .walls = smooth_base + smooth_tube("0.05"),
                                     .spacing = 0.0025},
-                                   "hydrostatic_tube", 2 * std::numbers::pi * 0.05);
+                                   smooth_floor + closed_gate, "hydrostatic_tube",
+                                   2 * std::numbers::pi * 0.05);
 }
 
 TEST(Hydrostatic, LoadsOfSandInABox) {
-  const std::string planes =
-      "[[wall]]\nname = \"base\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction = 0\n"
+  const std::string base = "[[wall]]\nname = \"base\"\nshape = \"plane\"\npoint = [0, 0, 0]\n"
+                           "normal = [0, 0, 1]\nfriction = 0\n";
+  const std::string box =
       "[[wall]]\nname = \"box\"\nshape = \"box\"\nside = \"inside\"\nlower = [-0.06, -0.05, -1]\n"
       "upper = [0.06, 0.05, 1]\nfriction = 0\n";
   expect_hydrostatic<ThreeDimensional>({.geometry = "three_dimensional\"\nsector = \"quarter",
                                         .column = "radius = 0.06\ndepth = 0.05\nheight = 0.1",
                                         .material = sand("SS", 0.58),
-                                        .walls = planes,
+                                        .walls = base + box,
                                         .spacing = 0.005},
-                                       "hydrostatic_box", 0.06 + 0.05, 0.02);
+                                       smooth_floor + box, "hydrostatic_box", 0.06 + 0.05, 0.02);
 }
 
 /// Mean vertical stress of all particles, Pa, weighted by volume; compression positive.
@@ -125,17 +159,17 @@ double mean_vertical(const host::Particles<Axisymmetric>& p) {
 }
 
 TEST(Janssen, ARoughTubeCarriesTheSand) {
-  // The base sinks by 1.5 mm, so that the sand slides down and the wall's friction is mobilised.
+  // The tube is raised by 1.5 mm, so that the sand slides down in it and its friction is mobilised.
   constexpr double radius = 0.02, height = 0.12, friction = 0.4;
-  auto s = host::start_simulation<Axisymmetric>(wall_scene(
-      {.geometry = "axisymmetric",
-       .column = "radius = 0.02\nheight = 0.12",
-       .material = sand("SS", 0.7),
-       .walls = smooth_base + "velocity = [0, -0.015]\nstart = 0\nend = 0.1\n" +
-                "[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.02\n"
-                "friction = 0.4\n",
-       .spacing = 0.0025},
-      "janssen"));
+  const std::string tube =
+      "[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.02\n"
+      "friction = 0.4\nvelocity = [0, 0.015]\nstart = 0\nend = 0.1\n";
+  const WallCase c{.geometry = "axisymmetric",
+                   .column = "radius = 0.02\nheight = 0.12",
+                   .material = sand("SS", 0.7),
+                   .walls = smooth_base + tube,
+                   .spacing = 0.0025};
+  auto s = host::start_simulation<Axisymmetric>(wall_scene(c, "janssen"));
   run_until(s, 0.06);
   const auto before = s.loads;
   const double start = s.time;
@@ -164,6 +198,7 @@ TEST(Janssen, ARoughTubeCarriesTheSand) {
   EXPECT_GT(carried / side, 0.9 * friction) << "the sand slides nearly everywhere";
   EXPECT_LT(base, 0.6 * weight);
   EXPECT_NEAR(base, janssen, 0.05 * janssen);
+  expect_same_if_written(smooth_floor + tube, c, "janssen_short", s);
 }
 
 TEST(Moving, APistonLiftsTheSand) {
@@ -218,29 +253,60 @@ TEST(Moving, ABoxCarriesTheSandAlong) {
   EXPECT_NEAR(momentum_of(s.particles)[0] / mass, 0, 5e-3);
 }
 
-TEST(Moving, ALiftedTubeIsTheGate) {
-  // The same collapse with [floor] and [gate] and with walls of the list.
-  const auto collapse = [](const std::string& walls, const std::string& name) {
-    auto s = host::start_simulation<Axisymmetric>(wall_scene({.geometry = "axisymmetric",
-                                                              .column = "radius = 0.05\nheight = 0.05",
-                                                              .material = sand("TS", 0.4451),
-                                                              .walls = walls,
-                                                              .spacing = 0.005},
-                                                             name));
-    run_until(s, 0.15);
-    double reach = 0;
-    for (int i = 0; i < s.particles.count; ++i) reach += s.particles.mass[i] * s.particles.position[0][i];
-    return reach / mass_of(s.particles);
-  };
-  const double gate =
-      collapse("[floor]\nfriction = 0.5\n[gate]\nmotion = \"lift\"\nspeed = 1.6\n", "by_gate");
-  const double tube = collapse(
-      "[[wall]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\nfriction = 0.5\n"
+/// The same collapse with [floor] and [gate] and with walls of the list.
+template <class Geometry> void expect_tube_is_gate(WallCase c, const std::string& name) {
+  const bool solid = Geometry::dimension == 3;
+  const std::string zero = solid ? "0, 0" : "0";
+  c.column = "radius = 0.05\nheight = 0.05";
+  c.material = sand("TS", 0.4451);
+  c.walls = "[floor]\nfriction = 0.5\n[gate]\nmotion = \"lift\"\nspeed = 1.6\n";
+  auto s = host::start_simulation<Geometry>(wall_scene(c, name + "_gate"));
+  run_until(s, solid ? 0.04 : 0.15);
+  const auto tube = fmt::format(
+      "[[wall]]\nname = \"ground\"\nshape = \"plane\"\npoint = [{0}, 0]\nnormal = [{0}, 1]\nfriction = 0.5\n"
       "[[wall]]\nname = \"tube\"\nshape = \"cylinder\"\nside = \"inside\"\nradius = 0.05\nlower = 0\n"
-      "friction = 0\nvelocity = [0, 1.6]\n",
-      "by_tube");
-  std::printf("mean radius after 0.15 s: gate %.3f mm, lifted tube %.3f mm\n", 1e3 * gate, 1e3 * tube);
-  EXPECT_NEAR(tube, gate, 0.02 * gate);
+      "friction = 0\nvelocity = [{0}, 1.6]\n",
+      zero);
+  expect_same_if_written(tube, c, name + "_tube", s);
+}
+
+TEST(Moving, ALiftedTubeIsTheGate) {
+  expect_tube_is_gate<PlaneStrain>({.spacing = 0.005}, "collapse_plane");
+  expect_tube_is_gate<Axisymmetric>({.geometry = "axisymmetric", .spacing = 0.005}, "collapse_rings");
+  expect_tube_is_gate<ThreeDimensional>(
+      {.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007}, "collapse_solid");
+}
+
+/// A wall that no particle comes near to changes nothing, whether it is at rest or moves, first or last.
+template <class Geometry> void expect_idle(WallCase c, const std::string& name) {
+  const std::string zero = Geometry::dimension == 3 ? "0, 0" : "0";
+  c.column = "radius = 0.05\nheight = 0.05";
+  c.material = sand("TS", 0.4451);
+  c.walls = "[floor]\nfriction = 0.5\n[gate]\nmotion = \"lift\"\nspeed = 1.6\n";
+  auto s = host::start_simulation<Geometry>(wall_scene(c, name));
+  run_until(s, Geometry::dimension == 3 ? 0.04 : 0.15);
+  const auto ceiling = [&](const std::string& more) {
+    return fmt::format(
+               "[[wall]]\nname = \"ceiling\"\nshape = \"plane\"\npoint = [{0}, 10]\nnormal = [{0}, -1]\n"
+               "friction = 0.5\n",
+               zero) +
+           more;
+  };
+  expect_same_if_written(c.walls + ceiling(""), c, name + "_ceiling", s);
+  expect_same_if_written(c.walls + ceiling(fmt::format("velocity = [{}, -5]\n", zero)), c, name + "_falling",
+                         s);
+  const auto post = fmt::format(
+      "[[wall]]\nname = \"post\"\nshape = \"cylinder\"\nside = \"outside\"\nradius = 0.1\n"
+      "{}lower = 8\nupper = 9\nfriction = 0.5\n",
+      Geometry::hoop ? "" : fmt::format("center = [{}]\n", Geometry::dimension == 3 ? "3, 3" : "3"));
+  expect_same_if_written(c.walls + post, c, name + "_post", s);
+}
+
+TEST(Idle, WallsOutOfReachChangeNothing) {
+  expect_idle<PlaneStrain>({.spacing = 0.005}, "idle_plane");
+  expect_idle<Axisymmetric>({.geometry = "axisymmetric", .spacing = 0.005}, "idle_rings");
+  expect_idle<ThreeDimensional>({.geometry = "three_dimensional\"\nsector = \"quarter", .spacing = 0.007},
+                                "idle_solid");
 }
 
 /// What a wall that hits sand puts in is its force times its own motion; the guards of a run know it.

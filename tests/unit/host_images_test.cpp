@@ -2,10 +2,9 @@
 // Images behind axis, floor and gate: where they stand, what they carry, and that a column in equilibrium
 // does not notice that it ends there.
 #include "host/bodies/initial_particles.hpp"
-#include "host/engine/simulation.hpp"
 #include "host/scheme/geometry.hpp"
-#include "host/walls/mirrors.hpp"
-#include "tests/unit/host_stages.hpp"
+#include "host/walls/sight.hpp"
+#include "tests/unit/host_fixture.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <map>
@@ -14,7 +13,8 @@ namespace {
 
 using namespace host;
 
-constexpr double spacing = 0.002, radius = 20 * spacing, height = 24 * spacing, reach = 3 * spacing; // m
+using host_test::spacing;
+constexpr double radius = 20 * spacing, height = 24 * spacing, reach = 3 * spacing; // m
 
 Scene column_scene(GateMotion gate) {
   Scene scene;
@@ -33,7 +33,7 @@ template <class Geometry> Stages<Geometry> find_forces(Simulation<Geometry>& s) 
   Stages<Geometry> stages(s.particles);
   update_gradient(s.particles, s.kernel, s.lists, s.records, stages);
   write_stress_records(s.particles, s.scene, s.kernel.h, stages, s.records);
-  reflect_stress(s.images, s.mirrors, s.records);
+  reflect_stress(s.images, s.surfaces, medium_of(s.scene), s.records);
   update_acceleration(s.particles, s.kernel, s.lists, s.records, s.scene, stages);
   return stages;
 }
@@ -42,18 +42,29 @@ template <class Geometry> Stages<Geometry> find_forces(Simulation<Geometry>& s) 
 template <class Geometry, class Stress> Simulation<Geometry> standing(const Scene& scene, Stress&& stress) {
   Simulation<Geometry> s{.scene = scene,
                          .kernel = Kernel<2>(scene.numerics.smoothing_length * scene.spacing),
-                         .particles = initial_particles<Geometry>(scene),
-                         .mirrors = scene_mirrors(scene)};
+                         .particles = initial_particles<Geometry>(scene)};
+  host_test::place_walls(s);
   auto& p = s.particles;
   for (int i = 0; i < p.count; ++i)
     for (int c = 0; c < 4; ++c) p.stress[c][i] = stress(p.position[1][i])[c];
-  s.images = find_images(p, s.mirrors, s.kernel.support);
+  find_images(p, s.surfaces, s.kernel.support, 0, s.images);
   s.records.motion.resize(p.padded() + s.images.list.size());
   s.records.stress.resize(s.records.motion.size());
-  show_motion(p, s.records);
-  reflect_motion(s.images, s.mirrors, s.records);
-  find_neighbours(p, s.images, s.records, s.kernel.support, s.lists);
+  host_test::find_lists(s, s.kernel.support);
   return s;
+}
+
+/// Images and lists as a step makes them, with what each particle sees of images in shells.
+template <class Geometry> void list_with_sight(Simulation<Geometry>& s) {
+  auto& p = s.particles;
+  find_images(p, s.surfaces, s.kernel.support, 0, s.images);
+  s.records.motion.resize(p.padded() + s.images.list.size());
+  s.records.stress.resize(s.records.motion.size());
+  host_test::show(s);
+  find_neighbours(p, s.images, s.records, s.kernel.support, s.outer_lists,
+                  find_screened_clusters(p, s.surfaces, s.images, s.kernel.support, 0.0));
+  prune(p, s.records, s.kernel.support, s.outer_lists, s.lists);
+  find_sight(p, s.surfaces, s.images, s.records, s.lists);
 }
 
 /// Second moment of the kernel's slope on the lattice; 1 in the continuum; 0.0026 are missing.
@@ -95,16 +106,16 @@ template <class Geometry> void expect_no_force_of_uniform_stress(GateMotion gate
   expect_acceleration(standing<Geometry>(column_scene(gate), stress), 0);
 }
 
-TEST(Mirrors, UniformStressLeavesNoForceAtAxisFloorAndGate) {
+TEST(Images, UniformStressLeavesNoForceAtAxisFloorAndGate) {
   expect_no_force_of_uniform_stress<PlaneStrain>(GateMotion::fixed);
   expect_no_force_of_uniform_stress<Axisymmetric>(GateMotion::fixed);
 }
 
-TEST(Mirrors, AGateThatHasNotMovedYetIsClosed) {
+TEST(Images, AGateThatHasNotMovedYetIsClosed) {
   expect_no_force_of_uniform_stress<PlaneStrain>(GateMotion::lift);
 }
 
-TEST(Mirrors, GeostaticStressCarriesTheWeightDownToTheFloor) {
+TEST(Images, GeostaticStressCarriesTheWeightDownToTheFloor) {
   auto scene = column_scene(GateMotion::fixed);
   scene.gravity = 9.81;
   const auto stress = [](double y) {
@@ -117,12 +128,13 @@ TEST(Mirrors, GeostaticStressCarriesTheWeightDownToTheFloor) {
 
 /// One particle with all quantities set, and its images at a corner of floor and gate, or floor and axis.
 struct Lone {
+  Scene scene;
   Particles<Axisymmetric> p;
-  std::vector<Mirror> mirrors;
+  std::vector<Surface<2>> surfaces;
   Images images;
   Records<Axisymmetric> records;
 
-  Lone(const Scene& scene, double x, double y) : mirrors(scene_mirrors(scene)) {
+  Lone(const Scene& of, double x, double y) : scene(of) {
     p.resize(1, 0);
     p.position[0][0] = x;
     p.position[1][0] = y;
@@ -131,16 +143,21 @@ struct Lone {
     p.density[0] = 1500;
     p.mass[0] = 0.01;
     for (int c = 0; c < 4; ++c) p.stress[c][0] = -1000.0 * (c + 1);
-    images = find_images(p, mirrors, reach);
+    place_walls(0);
+    list_images();
     records.motion.resize(p.padded() + images.list.size());
     records.stress.resize(records.motion.size());
     show_motion(p, records);
     write_stress_records(p, scene, 1.5 * spacing, Stages<Axisymmetric>(p), records);
     reflect();
   }
+  void place_walls(double time) {
+    find_surfaces(planes_of_symmetry(scene), all_walls(scene), scene.geometry, time, 0, surfaces);
+  }
+  void list_images() { find_images(p, surfaces, reach, 0, images); }
   void reflect() {
-    reflect_motion(images, mirrors, records);
-    reflect_stress(images, mirrors, records);
+    reflect_motion(images, surfaces, records);
+    reflect_stress(images, surfaces, medium_of(scene), records);
   }
   const MotionRecord<2>& motion(int image) const { return records.motion[images.first + image]; }
   const StressRecord<Axisymmetric>& stress(int image) const { return records.stress[images.first + image]; }
@@ -153,7 +170,7 @@ void expect_at(const MotionRecord<2>& record, double x, double y, double vx, dou
   EXPECT_EQ(record.velocity[1], vy);
 }
 
-TEST(Mirrors, ACornerHoldsThreeImages) {
+TEST(Images, ACornerHoldsThreeImages) {
   const double x = 0.4 * spacing, y = 0.7 * spacing;
   const Lone lone(column_scene(GateMotion::fixed), x, y);
   ASSERT_EQ(lone.images.list.size(), 3);
@@ -171,7 +188,7 @@ TEST(Mirrors, ACornerHoldsThreeImages) {
   }
 }
 
-TEST(Mirrors, BehindTheFloorTheWeightGoesOn) {
+TEST(Images, BehindTheFloorTheWeightGoesOn) {
   auto scene = column_scene(GateMotion::fixed);
   scene.gravity = 10;
   const double x = 10 * spacing, y = 0.5 * spacing, more = 1500 * 10 * 2 * y;
@@ -181,7 +198,7 @@ TEST(Mirrors, BehindTheFloorTheWeightGoesOn) {
   EXPECT_NEAR(lone.stress(0).stress[0], -1000 - 0.5 * more, 1e-12);
 }
 
-TEST(Mirrors, TheGateActsAboveItsEdge) {
+TEST(Images, TheGateReflectsAboveItsEdge) {
   const auto scene = column_scene(GateMotion::lift);
   const double edge = 10 * spacing;
   Lone lone(scene, radius - 0.5 * spacing, edge);
@@ -189,10 +206,9 @@ TEST(Mirrors, TheGateActsAboveItsEdge) {
   expect_at(lone.motion(0), radius + 0.5 * spacing, edge, -3, 4);
   EXPECT_GT(lone.motion(0).volume, 0);
 
-  move_gate(lone.mirrors, scene, (edge + 1e-6) / 1.6); // just above the particle
+  lone.place_walls((edge + 1e-6) / 1.6); // just above the particle
   lone.reflect();
   EXPECT_EQ(lone.motion(0).volume, 0);
-  EXPECT_TRUE(find_images(lone.p, lone.mirrors, reach).list.empty());
 
   lone.p.position[1][0] = edge + 2e-6; // thrown up, inside
   show_motion(lone.p, lone.records);
@@ -203,10 +219,46 @@ TEST(Mirrors, TheGateActsAboveItsEdge) {
   show_motion(lone.p, lone.records);
   lone.reflect();
   EXPECT_EQ(lone.motion(0).volume, 0);
+
+  lone.place_walls((edge + 2 * reach) / 1.6); // gone
+  lone.list_images();
+  EXPECT_TRUE(lone.images.list.empty());
+}
+
+/// A particle inside of the gate, 0.5 spacings above its edge, and one at (`x`, `y`) spacings from radius and edge: what
+/// its image adds to the velocity gradient and the acceleration of the other.
+double action_of_image(double x, double y) {
+  auto scene = column_scene(GateMotion::lift);
+  scene.geometry = GeometryKind::plane_strain;
+  const double edge = 10 * spacing;
+  auto s = host_test::empty_cloud<PlaneStrain>(2, scene);
+  auto& p = s.particles;
+  host_test::put(p, 0, {radius - 0.5 * spacing, edge + 0.5 * spacing});
+  host_test::put(p, 1, {radius + x * spacing, edge + y * spacing});
+  p.velocity[0][0] = 1;
+  for (int c = 0; c < 3; ++c) p.stress[c][0] = -1000;
+  host_test::place_walls(s, edge / 1.6);
+  list_with_sight(s);
+  return std::abs(find_forces(s).wall_acceleration[0][1]);
+}
+
+TEST(Images, InAShellAreSeenThroughItOnly) {
+  EXPECT_GT(action_of_image(-0.5, 1.5), 10) << "behind the gate";
+  EXPECT_GT(action_of_image(-0.5, -0.4), 10) << "below the edge, which the line to the image passes above";
+  EXPECT_EQ(action_of_image(-0.5, -0.6), 0) << "the line passes below the edge";
+  EXPECT_EQ(action_of_image(0.5, -0.5), 0) << "passed under the gate";
+  EXPECT_EQ(action_of_image(0.5, 1.5), 0) << "on the other side";
+}
+
+TEST(Images, OfSandThatHasPassedUnderTheGateAreNone) {
+  for (const double height : {9., 11.}) {
+    const Lone lone(column_scene(GateMotion::lift), radius + 0.5 * spacing, height * spacing);
+    for (std::size_t k = 0; k < lone.images.list.size(); ++k) EXPECT_EQ(lone.motion(int(k)).volume, 0);
+  }
 }
 
 /// A particle of a three-dimensional column and its image in the cylindrical gate.
-TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
+TEST(Images, ACylinderReflectsInItsTangentPlane) {
   auto scene = column_scene(GateMotion::fixed);
   scene.geometry = GeometryKind::three_dimensional;
   Particles<ThreeDimensional> p;
@@ -228,8 +280,10 @@ TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
   }
   p.density[0] = 1500;
   p.mass[0] = 1500 * std::pow(spacing, 3);
-  const auto mirrors = scene_mirrors(scene);
-  const auto images = find_images(p, mirrors, reach);
+  std::vector<Surface<3>> surfaces;
+  find_surfaces(0, all_walls(scene), scene.geometry, 0, 0, surfaces);
+  Images images;
+  find_images(p, surfaces, reach, 0, images);
   ASSERT_EQ(images.list.size(), 1);
   EXPECT_EQ(images.first_wall, images.first);
   Records<ThreeDimensional> records;
@@ -237,8 +291,8 @@ TEST(Mirrors, ACylinderReflectsInItsTangentPlane) {
   records.stress.resize(p.padded() + 1);
   show_motion(p, records);
   write_stress_records(p, scene, 1.5 * spacing, stages, records);
-  reflect_motion(images, mirrors, records);
-  reflect_stress(images, mirrors, records);
+  reflect_motion(images, surfaces, records);
+  reflect_stress(images, surfaces, medium_of(scene), records);
   const auto& motion = records.motion[images.first];
   const auto& image = records.stress[images.first];
   const Eigen::Vector3d reflected = reflection * velocity;
@@ -266,9 +320,8 @@ Simulation<ThreeDimensional> flowing(Sector sector) {
   scene.gate.radius = scene.column.radius;
   Simulation<ThreeDimensional> s{.scene = scene,
                                  .kernel = Kernel<3>(1.5 * spacing),
-                                 .particles = initial_particles<ThreeDimensional>(scene),
-                                 .mirrors = scene_mirrors(scene)};
-  move_gate(s.mirrors, scene, 3.2 * spacing / scene.gate.speed);
+                                 .particles = initial_particles<ThreeDimensional>(scene)};
+  host_test::place_walls(s, 3.2 * spacing / scene.gate.speed);
   auto& p = s.particles;
   for (int i = 0; i < p.count; ++i) {
     const double x = p.position[0][i], y = p.position[1][i], z = p.position[2][i], r = std::hypot(x, y);
@@ -284,16 +337,11 @@ Simulation<ThreeDimensional> flowing(Sector sector) {
     p.wave_speed[i] = 30;
   }
   sort_particles(p, spacing);
-  s.images = find_images(p, s.mirrors, s.kernel.support);
-  s.records.motion.resize(p.padded() + s.images.list.size());
-  s.records.stress.resize(s.records.motion.size());
-  show_motion(p, s.records);
-  reflect_motion(s.images, s.mirrors, s.records);
-  find_neighbours(p, s.images, s.records, s.kernel.support, s.lists);
+  list_with_sight(s);
   return s;
 }
 
-TEST(Mirrors, AParticleOfASectorSeesWhatItSeesInTheWhole) {
+TEST(Images, AParticleOfASectorSeesWhatItSeesInTheWhole) {
   auto whole = flowing(Sector::full);
   const auto& w = whole.particles;
   const auto in_whole = find_forces(whole);
@@ -324,7 +372,7 @@ TEST(Mirrors, AParticleOfASectorSeesWhatItSeesInTheWhole) {
   }
 }
 
-TEST(Mirrors, ARemovedGateIsNone) {
+TEST(Images, ARemovedGateIsNone) {
   const Lone lone(column_scene(GateMotion::remove), radius - 0.5 * spacing, 10 * spacing);
   EXPECT_TRUE(lone.images.list.empty());
 }
