@@ -22,6 +22,10 @@ template <class Real> Real plastic_work(const SubstepInvariants<Real>& in, const
                   0);
 }
 
+/// Error up to which the shortest substep is accepted: where p is about to vanish the estimate, relative to p, is large and
+/// does not matter.
+inline constexpr double largest_error = 4;
+
 /// Estimated error (20) of a plastic substep.
 template <class Real, int N>
 Real plastic_error(const MaterialOf<Real>& m, const SubstepWorkspace<Real, N>& w) {
@@ -67,7 +71,13 @@ SubstepEnd<Real, N> plastic_end(const MaterialOf<Real>& m, const SubstepWorkspac
   const Real factor = select(flow.q > 0, q / positive(flow.q), Real(0));
   out.state = {add_mean(scale(factor, flow.deviator), p), w.in.e_end, w.in.eps_d + x, 0};
   out.dissipation = plastic_work(w.in, end);
+  // Shorter substeps do not shorten the return of a stress from beyond the yield surface.
+  const Mask<Real> outside = w.flow.f_start > Real(1e-3) * w.in.start.mean_stress;
+  // A multiplier of 0 beside a stress beyond the yield surface: numbers too large for their precision.
+  const Mask<Real> sound = out.plastic | (q <= p * end.slopes.peak * end.mobilised + Real(1e-3) * p);
   out.error = select(loses_stress_on_the_way(m, w.in, end), Real(1), plastic_error(m, w));
+  out.error = select(outside, at_most(out.error, largest_error), out.error);
+  out.error = select(sound, out.error, Real(std::numeric_limits<Scalar<Real>>::max()));
   return out;
 }
 

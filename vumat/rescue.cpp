@@ -7,7 +7,7 @@
 namespace simsand {
 namespace {
 
-/// Most evaluations of (16) with bisection.
+/// Most evaluations of (16) in one substep.
 constexpr int largest_evaluation_count = 100;
 
 /// The longest substep, as a share of the increment, in which a point may lose all its stress, or leave zero pressure
@@ -19,6 +19,7 @@ template <class T, int N> struct RescuedEnd : SubstepEnd<T, N> {
   bool converged = true;
   bool at_zero = false; ///< p reached 0, or left it by dilation that followed on contraction
   bool regains = false; ///< p reached 0, from where dilation leads back to pressure
+  int evaluations = 0;
 };
 
 template <class T>
@@ -35,7 +36,7 @@ EndCandidate<T> candidate(const Material<T>& m, const SubstepInvariants<T>& in, 
 /// with a positive residual is a point that has separated.
 template <class T>
 EndCandidate<T> solve_in_bracket(const Material<T>& m, const SubstepInvariants<T>& in, EndCandidate<T> c,
-                                 bool& converged) {
+                                 bool& converged, int& evaluations) {
   // No dilatancy exceeds 3 A_d, so no y lies above `high`.
   const T largest_x = largest_multiplier(m, in);
   T low = 0,
@@ -57,6 +58,7 @@ EndCandidate<T> solve_in_bracket(const Material<T>& m, const SubstepInvariants<T
     } else if (!(next > low && next < high) || stalled) {
       next = (low + high) / 2;
     }
+    ++evaluations;
     const auto pressure = pressure_of_measure(m, next);
     const auto d = candidate(m, in, pressure, slopes(m, in.e_end, pressure, in.sin3theta));
     const T secant = (d.residual - c.residual) / (next - y);
@@ -82,7 +84,7 @@ RescuedEnd<T, N> stressed_end(const Material<T>& m, const SoilState<T, N>& old,
   Slopes<T> at_trial;
   set_tangents(m, w.trial.critical, w.trial.log_state_ratio, at_trial);
   const auto first = candidate(m, w.in, w.trial.pressure, at_lode_angle(at_trial, w.in.sin3theta));
-  const auto& end = w.end = solve_in_bracket(m, w.in, first, out.converged);
+  const auto& end = w.end = solve_in_bracket(m, w.in, first, out.converged, out.evaluations);
   const bool contracts = contracts_at_zero(m, w.in, end);
   SubstepEnd<T, N>& result = out;
   if (end.pressure.measure > 0) {
@@ -111,10 +113,14 @@ RescuedEnd<T, N> rescued_end(const Material<T>& m, const SoilState<T, N>& old,
 
 } // namespace
 
-template <class T, int N> void rescue(const Material<T>& m, IncrementProgress<T, N>& at) noexcept {
+template <class T, int N> int rescue(const Material<T>& m, IncrementProgress<T, N>& at) noexcept {
   const T e_start = at.state.void_ratio, volumetric = trace(at.strain);
+  int work = 0;
   while (at.status >= 0 && at.applied < 1) {
+    if (work >= largest_work) at.status = unsolved;
+    if (at.status < 0) return work;
     const auto end = rescued_end(m, at.state, scale(at.substep, at.strain));
+    work += 1 + end.evaluations;
     const bool too_long = end.at_zero && at.substep > T(longest_at_zero);
     const T before = at.applied;
     accept_or_cut<T, N>(at, end, true, end.converged && !too_long);
@@ -125,18 +131,16 @@ template <class T, int N> void rescue(const Material<T>& m, IncrementProgress<T,
     at.state.void_ratio =
         void_ratio_after(e_start, volumetric * at.applied); // not summed up over many substeps
   }
-  if (at.status < 0) return;
-  if (!is_admissible(at.state, at.strain)) { // a void ratio beyond all numbers
-    at.status = unsolved;
-    return;
-  }
+  if (!is_admissible(at.state, at.strain)) at.status = unsolved; // a void ratio beyond all numbers
+  if (at.status < 0) return work;
   if (trace(at.state.stress) == 0) at.state.separation_strain = positive(at.state.separation_strain);
   if (at.state.separation_strain > 0) at.status = int(Status::stress_free);
+  return work;
 }
 
-template void rescue(const Material<float>&, IncrementProgress<float, 4>&) noexcept;
-template void rescue(const Material<float>&, IncrementProgress<float, 6>&) noexcept;
-template void rescue(const Material<double>&, IncrementProgress<double, 4>&) noexcept;
-template void rescue(const Material<double>&, IncrementProgress<double, 6>&) noexcept;
+template int rescue(const Material<float>&, IncrementProgress<float, 4>&) noexcept;
+template int rescue(const Material<float>&, IncrementProgress<float, 6>&) noexcept;
+template int rescue(const Material<double>&, IncrementProgress<double, 4>&) noexcept;
+template int rescue(const Material<double>&, IncrementProgress<double, 6>&) noexcept;
 
 } // namespace simsand

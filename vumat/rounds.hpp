@@ -17,6 +17,9 @@ template <class T, int N> bool is_unfinished(const PassColumns<T, N>& a, int k) 
   return (a.status.at[k] >= 0) & (a.applied.at[k] < 1);
 }
 
+/// Most rounds of a pass. Points that need more substeps are left to the rescue.
+inline constexpr int largest_round_count = 1024;
+
 /// Memory for a value that is not initialised.
 template <class V> union Uninitialised {
   V value;
@@ -144,7 +147,9 @@ template <class T, int N> void run_pass(const Material<T>& m, const Block<T>& b,
   PointList<T> list;
   auto& a = columns.value;
   first_round<T, N>(m, b, from, count, a, list, workspaces.value);
-  while (list.count > 0) next_round<T, N>(m, a, list, workspaces.value);
+  for (int i = 0; i < largest_round_count && list.count > 0; ++i)
+    next_round<T, N>(m, a, list, workspaces.value);
+  for (int i = 0; i < list.count; ++i) a.status.at[list.position[i]] = T(unsolved);
   store_pass<T, N>(b, from, count, a);
   for (int k = 0; k < count; ++k)
     if (a.status.at[k] < 0) run_point<T, N>(m, b, Task::increment, from + k);

@@ -43,6 +43,7 @@ template <class Real, int N> struct ElasticTrial {
 template <class Real, int N> struct FlowDirection {
   SymmetricTensor<Real, N> deviator;
   Real q, turn;      ///< invariant of `deviator`; 2 (1 - cos psi)
+  Real f_start;      ///< (8) at the start; positive: the host has put the stress beyond the yield surface
   Real elastic_part; ///< of the trial, before the yield surface
 };
 

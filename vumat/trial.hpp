@@ -88,7 +88,7 @@ template <class Real, int N> void turn_deviator(const MaterialOf<Real>& m, Subst
   const auto& t = w.trial;
   auto& in = w.in;
   auto& flow = w.flow;
-  const Real f_start =
+  const Real f_start = flow.f_start =
       yield_function(in.q_start, in.start.mean_stress, in.slopes_start.peak, in.eps_d * in.inverse_start);
   flow.elastic_part = within(-f_start / positive(t.f - f_start), 0, 1);
   const auto s_yield = add(scale(1 - flow.elastic_part, t.s_old), flow.elastic_part, t.s_trial);

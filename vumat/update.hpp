@@ -8,7 +8,7 @@ namespace simsand {
 
 /// Accepted error of a substep (20).
 inline constexpr double substep_tolerance = 0.05;
-/// Shortest substep, as a share of the increment.
+/// Shortest substep, as a share of the increment. It is accepted up to an error of `largest_error`.
 inline constexpr double shortest_substep = 1. / 65536;
 /// In place of a status: the point is left to the rescue, or, in the rescue, failed.
 inline constexpr int unsolved = int(Status::exhausted);
@@ -39,7 +39,8 @@ void accept_or_cut(IncrementProgress<Real, N>& at, const SubstepEnd<Real, N>& en
                    const Mask<Real>& solved) {
   const Real zero = 0, one = 1, shortest = Real(shortest_substep);
   const Mask<Real> last = at.substep <= shortest;
-  const Mask<Real> accepted = tried & solved & ((end.error <= Real(substep_tolerance)) | last);
+  const Real allowed = select(last, Real(largest_error), Real(substep_tolerance));
+  const Mask<Real> accepted = tried & solved & (end.error <= allowed);
   const Mask<Real> rejected = tried & !accepted;
   at.state = select<Real, N>(accepted, end.state, at.state);
   at.dissipation += select(accepted, end.dissipation, zero);
