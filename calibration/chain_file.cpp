@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/chain_file.hpp"
 #include "calibration/chain_image.hpp"
-#include "host/files/hdf5_write.hpp"
+#include "host/files/hdf5_read.hpp"
+#include "host/files/seal.hpp"
 #include "host/files/whole_file.hpp"
 #include <algorithm>
 #include <cerrno>
@@ -16,53 +17,27 @@
 namespace calibration {
 namespace {
 
-using Shape = std::vector<hsize_t>;
+using host::extents_of, host::Extents, host::number_attribute, host::read_array, host::text_attribute;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
 }
 
+/// Reads arrays whose extents are known from attributes.
 struct Reader {
   const std::filesystem::path& path;
 
-  std::int64_t counter(const H5::H5Object& object, const std::string& name) const {
-    std::int64_t value = 0;
-    object.openAttribute(name).read(H5::PredType::NATIVE_INT64, &value);
-    return value;
-  }
-  double real(const H5::H5Object& object, const std::string& name) const {
-    double value = 0;
-    object.openAttribute(name).read(H5::PredType::NATIVE_DOUBLE, &value);
-    return value;
-  }
-  std::string text(const H5::H5Object& object, const std::string& name) const {
-    std::string value;
-    const auto attribute = object.openAttribute(name);
-    attribute.read(attribute.getStrType(), value);
-    return value.c_str();
-  }
-  Shape shape(const H5::Group& group, const std::string& name) const {
-    const auto space = group.openDataSet(name).getSpace();
-    Shape extents(space.getSimpleExtentNdims());
-    space.getSimpleExtentDims(extents.data());
-    return extents;
-  }
   template <typename Value>
-  std::vector<Value> array(const H5::Group& group, const std::string& name, const H5::PredType& type,
-                           const Shape& expected) const {
-    if (shape(group, name) != expected)
+  std::vector<Value> array(const H5::Group& group, const std::string& name, const Extents& expected) const {
+    if (extents_of(group, name) != expected)
       fail(path, fmt::format("damaged chain: extents of {} differ from what its attributes say", name));
-    hsize_t size = 1;
-    for (const auto extent : expected) size *= extent;
-    std::vector<Value> values(size);
-    if (size > 0) group.openDataSet(name).read(values.data(), type);
-    return values;
+    return read_array<Value>(group, name);
   }
-  std::vector<double> reals(const H5::Group& group, const std::string& name, const Shape& expected) const {
-    return array<double>(group, name, H5::PredType::NATIVE_DOUBLE, expected);
+  std::vector<double> reals(const H5::Group& group, const std::string& name, const Extents& expected) const {
+    return array<double>(group, name, expected);
   }
   Eigen::MatrixXd points(const H5::Group& group, const std::string& name, hsize_t dimensions) const {
-    const Shape extents = shape(group, name);
+    const auto extents = extents_of(group, name);
     const hsize_t count = extents.empty() ? 0 : extents[0];
     const auto values = reals(group, name, {count, dimensions});
     return Eigen::Map<const Eigen::MatrixXd>(values.data(), Eigen::Index(dimensions), Eigen::Index(count));
@@ -73,32 +48,33 @@ struct Reader {
   }
 };
 
-/// Runs `read` and turns HDF5's exceptions into one line.
+std::int64_t counter(const H5::H5Object& object, const std::string& name) {
+  return number_attribute<std::int64_t>(object, name);
+}
+
+/// Runs `read` if the checksum of the file fits, and turns HDF5's exceptions into one line.
 template <typename Read> auto guarded_read(const std::filesystem::path& path, const Read& read) {
   const host::QuietDestructors quiet;
   H5::Exception::dontPrint();
-  try {
-    return read();
-  } catch (const H5::Exception& e) {
-    fail(path,
-         fmt::format("not a chain of this program, or damaged ({}); the file is left as it is. Name another "
-                     "file or delete this one",
-                     e.getDetailMsg()));
-  }
+  if (host::has_intact_seal(path)) try {
+      return read();
+    } catch (const H5::Exception&) {}
+  fail(path, "not a chain of this program, or damaged; the file is left as it is. Name another file or "
+             "delete this one");
 }
 
-H5::H5File open_chain(const std::filesystem::path& path, const Reader& reader) {
-  H5::H5File file(path.string(), H5F_ACC_RDONLY);
-  if (!file.attrExists("format") || reader.text(file, "format") != chain_format_name)
+H5::H5File open_chain(const std::filesystem::path& path) {
+  const auto file = host::open_to_read(path);
+  if (!file.attrExists("format") || text_attribute(file, "format") != chain_format_name)
     fail(path, "not a chain of this program; the file is left as it is");
-  if (const auto version = reader.counter(file, "format_version"); version != chain_format_version)
+  if (const auto version = counter(file, "format_version"); version != chain_format_version)
     fail(path, fmt::format("format {} of the chain, this program reads {}", version, chain_format_version));
   return file;
 }
 
-std::vector<std::string> read_names(const H5::H5File& file, const Reader& reader) {
+std::vector<std::string> read_names(const H5::H5File& file) {
   std::vector<std::string> names;
-  const std::string text = reader.text(file, "names");
+  const std::string text = text_attribute(file, "names");
   for (std::size_t first = 0; first < text.size();) {
     const auto last = std::min(text.find('\n', first), text.size());
     names.push_back(text.substr(first, last - first));
@@ -108,7 +84,7 @@ std::vector<std::string> read_names(const H5::H5File& file, const Reader& reader
 }
 
 Chain read_samples(const H5::H5File& file, const Reader& reader) {
-  const Shape extents = reader.shape(file, "samples");
+  const Extents extents = extents_of(file, "samples");
   if (extents.size() != 3) fail(reader.path, "damaged chain: samples must have three extents");
   Chain chain;
   chain.steps = int(extents[0]);
@@ -116,13 +92,13 @@ Chain read_samples(const H5::H5File& file, const Reader& reader) {
   chain.dimensions = int(extents[2]);
   chain.samples = reader.reals(file, "samples", extents);
   chain.log_density = reader.reals(file, "log_density", {extents[0], extents[1]});
-  chain.acceptance = reader.real(file, "acceptance");
-  chain.complete = reader.counter(file, "complete") != 0;
+  chain.acceptance = number_attribute<double>(file, "acceptance");
+  chain.complete = counter(file, "complete") != 0;
   return chain;
 }
 
 StudentMixture read_mixture(const H5::Group& group, const Reader& reader, hsize_t d) {
-  const Shape extents = reader.shape(group, "mixture_weights");
+  const Extents extents = extents_of(group, "mixture_weights");
   const hsize_t n = extents.empty() ? 0 : extents[0];
   const auto weights = reader.reals(group, "mixture_weights", {n}),
              norms = reader.reals(group, "mixture_norms", {n});
@@ -140,13 +116,13 @@ StudentMixture read_mixture(const H5::Group& group, const Reader& reader, hsize_
 
 SamplerState read_state(const H5::Group& group, const Reader& reader, hsize_t dimensions, hsize_t walkers) {
   SamplerState s;
-  s.step = reader.counter(group, "step");
-  s.fitted_first = reader.counter(group, "fitted_first");
-  s.fitted_count = reader.counter(group, "fitted_count");
-  s.proposed = reader.counter(group, "proposed");
-  s.accepted = reader.counter(group, "accepted");
-  s.independent_proposed = reader.counter(group, "independent_proposed");
-  s.independent_accepted = reader.counter(group, "independent_accepted");
+  s.step = counter(group, "step");
+  s.fitted_first = counter(group, "fitted_first");
+  s.fitted_count = counter(group, "fitted_count");
+  s.proposed = counter(group, "proposed");
+  s.accepted = counter(group, "accepted");
+  s.independent_proposed = counter(group, "independent_proposed");
+  s.independent_accepted = counter(group, "independent_accepted");
   s.points = reader.points(group, "points", dimensions);
   s.log_density = reader.vector(group, "log_density", walkers);
   s.archive = reader.points(group, "archive", dimensions);
@@ -155,8 +131,7 @@ SamplerState read_state(const H5::Group& group, const Reader& reader, hsize_t di
   const auto weight = reader.reals(group, "kernel_weight", {hsize_t(moves)});
   std::copy(weight.begin(), weight.end(), s.kernel.weight.begin());
   s.kernel.mixture = read_mixture(group, reader, dimensions);
-  s.random =
-      reader.array<unsigned char>(group, "random", H5::PredType::NATIVE_UCHAR, reader.shape(group, "random"));
+  s.random = read_array<unsigned char>(group, "random");
   return s;
 }
 
@@ -169,16 +144,15 @@ void require_same(const H5::H5File& file, const Reader& reader, const SamplerOpt
                        "to start anew",
                        what, stored, asked));
   };
-  differ("fingerprint of the problem", reader.text(file, "fingerprint"), c.fingerprint);
+  differ("fingerprint of the problem", text_attribute(file, "fingerprint"), c.fingerprint);
   differ("number of dimensions", chain.dimensions, dimensions);
-  if (read_names(file, reader) != c.names)
-    fail(reader.path, "the chain is of other parameters; name another file");
-  differ("walkers", reader.counter(file, "walkers"), std::int64_t(o.walkers));
-  differ("burn_in", reader.counter(file, "burn_in"), std::int64_t(o.burn_in));
-  differ("thinning", reader.counter(file, "thinning"), std::int64_t(o.thinning));
-  differ("seed", std::uint64_t(reader.counter(file, "seed")), o.seed);
+  if (read_names(file) != c.names) fail(reader.path, "the chain is of other parameters; name another file");
+  differ("walkers", counter(file, "walkers"), std::int64_t(o.walkers));
+  differ("burn_in", counter(file, "burn_in"), std::int64_t(o.burn_in));
+  differ("thinning", counter(file, "thinning"), std::int64_t(o.thinning));
+  differ("seed", std::uint64_t(counter(file, "seed")), o.seed);
   for (const auto& [name, bound] : {std::pair("lower", &o.lower), std::pair("upper", &o.upper)})
-    if (reader.shape(file, name) != Shape{hsize_t(bound->size())} ||
+    if (extents_of(file, name) != Extents{hsize_t(bound->size())} ||
         reader.vector(file, name, hsize_t(bound->size())) != *bound)
       fail(reader.path, fmt::format("the chain is of another run: other {} bounds; name another file", name));
   if (chain.steps > o.steps)
@@ -217,7 +191,7 @@ bool ChainFile::exists() const {
 SamplerState ChainFile::read(int dimensions) const {
   const Reader reader{checkpoint.file};
   return guarded_read(checkpoint.file, [&] {
-    const H5::H5File file = open_chain(checkpoint.file, reader);
+    const H5::H5File file = open_chain(checkpoint.file);
     Chain chain = read_samples(file, reader);
     require_same(file, reader, options, checkpoint, chain, dimensions);
     SamplerState state =
@@ -242,9 +216,8 @@ void ChainFile::write(const SamplerState& state) const {
 StoredChain read_chain(const std::filesystem::path& path) {
   const Reader reader{path};
   return guarded_read(path, [&] {
-    const H5::H5File file = open_chain(path, reader);
-    return StoredChain{read_samples(file, reader), read_names(file, reader),
-                       reader.text(file, "fingerprint")};
+    const H5::H5File file = open_chain(path);
+    return StoredChain{read_samples(file, reader), read_names(file), text_attribute(file, "fingerprint")};
   });
 }
 

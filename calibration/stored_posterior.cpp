@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/stored_posterior.hpp"
 #include "drivers/files/toml_table.hpp"
-#include "host/files/hdf5_write.hpp"
+#include "host/files/hdf5_read.hpp"
 #include "vumat/parameters.hpp"
 #include <algorithm>
 #include <cmath>
@@ -18,13 +18,6 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
-std::string text_of(const H5::H5Object& object, const std::string& name) {
-  std::string text;
-  const auto attribute = object.openAttribute(name);
-  attribute.read(attribute.getStrType(), text);
-  return text.c_str();
-}
-
 drivers::Words split(const std::string& list) {
   drivers::Words words;
   for (std::size_t at = 0; at < list.size();) {
@@ -36,10 +29,8 @@ drivers::Words split(const std::string& list) {
 }
 
 /// Rows of the first `wanted` columns.
-std::vector<std::vector<double>> read_rows(const H5::DataSet& dataset, std::size_t columns,
-                                           std::size_t wanted) {
-  std::vector<double> values(std::size_t(dataset.getSpace().getSimpleExtentNpoints()));
-  dataset.read(values.data(), H5::PredType::NATIVE_DOUBLE);
+std::vector<std::vector<double>> rows_of(const std::vector<double>& values, std::size_t columns,
+                                         std::size_t wanted) {
   std::vector<std::vector<double>> rows;
   for (std::size_t at = 0; at + columns <= values.size(); at += columns)
     rows.emplace_back(values.begin() + std::ptrdiff_t(at), values.begin() + std::ptrdiff_t(at + wanted));
@@ -69,14 +60,12 @@ StoredPosterior read(const H5::H5File& h5, const std::filesystem::path& file) {
                "--best-only given");
   StoredPosterior out;
   out.file = file;
-  out.names = split(text_of(h5.openGroup("parameters"), "names"));
+  out.names = split(host::text_attribute(h5.openGroup("parameters"), "names"));
   const auto posterior = h5.openGroup("posterior");
-  int converged = 0;
-  posterior.openAttribute("converged").read(H5::PredType::NATIVE_INT, &converged);
-  out.converged = converged != 0;
-  out.samples = read_rows(posterior.openDataSet("samples"), split(text_of(posterior, "names")).size(),
-                          out.names.size());
-  out.fixed = fixed_keys(text_of(h5, "resolved"), out.names);
+  out.converged = host::number_attribute<int>(posterior, "converged") != 0;
+  out.samples = rows_of(host::read_array<double>(posterior, "samples"),
+                        split(host::text_attribute(posterior, "names")).size(), out.names.size());
+  out.fixed = fixed_keys(host::text_attribute(h5, "resolved"), out.names);
   return out;
 }
 

@@ -14,7 +14,7 @@ std::string running(bool own_material, bool with_source) {
            "`user=`.\n\n";
   else if (!with_source)
     out +=
-        fmt::format("`{}` is missing here: it was not beside the program that wrote this folder. Build the "
+        fmt::format("`{}` is missing here: the program that wrote this folder comes without it. Build the "
                     "project's single source file for ABAQUS (a target of its build) and copy it here.\n\n",
                     abaqus_subroutine);
   out += fmt::format("```\nabaqus job={} user={} double=both cpus=8\n```\n\n", abaqus_job,

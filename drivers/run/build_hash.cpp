@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/run/build_hash.hpp"
-#include <cstdint>
+#include "host/files/seal.hpp"
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
@@ -10,9 +10,7 @@ namespace drivers {
 std::string file_hash(const std::filesystem::path& path) {
   std::stringstream content;
   content << std::ifstream(path, std::ios::binary).rdbuf();
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : content.view()) hash = (hash ^ std::uint8_t(c)) * 1099511628211ULL;
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", host::checksum(content.view()));
 }
 
 std::string build_hash(const std::filesystem::path& program, const std::filesystem::path& library) {

@@ -13,8 +13,8 @@ struct Interrupted : std::runtime_error {
   int signal;
 };
 
-/// Takes the signals from now on; those that the caller had ignored (nohup) stay ignored. A file that grows
-/// beyond the limit of the shell becomes an error of the write.
+/// Installs the handlers; signals that the caller ignored (nohup) stay ignored. SIGXFSZ is ignored, so that a file that
+/// grows beyond the shell's limit makes its write fail and does not end the program.
 void listen_for_signals();
 
 /// The signal that asked to stop; 0 if none has.

@@ -6,7 +6,7 @@
 
 namespace drivers {
 
-/// One law's answer; `runout` is (r_f - r0)/r0, `height` h_f/r0; NaN where the law says nothing.
+/// Height h_f/r0 and runout (r_f - r0)/r0 by one law; NaN outside of the law's range.
 struct LawValue {
   std::string source;
   double height, runout;

@@ -33,7 +33,7 @@ const std::vector<host::Quantity> general_columns{{"time", "s"},
                                                   {"energy_imbalance", "1"},
                                                   {"step_size", "s"}};
 
-/// Those, then those of each wall.
+/// The general columns, then those of each wall.
 template <class Geometry> std::vector<host::Quantity> series_columns(const host::Simulation<Geometry>& s) {
   auto columns = general_columns;
   for (const auto& wall : s.walls) {
@@ -94,7 +94,7 @@ std::vector<WallSample> wall_samples(const std::vector<host::WallLoad>& loads, d
   return walls;
 }
 
-/// Outline samples reach as far as grains of any deposit seen: three column heights past the column.
+/// Radii at which the outline is sampled: up to three column heights past the column, farther than any deposit reached.
 std::vector<double> outline_places(const host::Scene& scene) {
   const double reach = scene.column.radius + 3 * scene.column.height, middle = scene.column.center[0];
   if (scene.symmetric) return host::outline_radii(scene.spacing, std::abs(middle) + reach);
@@ -126,6 +126,18 @@ std::vector<std::span<const double>> views(const std::array<host::Array, N>& arr
   return all;
 }
 
+/// What a snapshot holds of each particle; readers find a field by its name.
+template <class Geometry> std::vector<host::Field> particle_fields(const host::Simulation<Geometry>& s) {
+  const auto& p = s.particles;
+  std::vector<host::Field> fields{{"position", "m", views(p.position, p.count)},
+                                  {"velocity", "m/s", views(p.velocity, p.count)},
+                                  {"stress", "Pa", views(p.stress, p.count)},
+                                  {"density", "kg/m3", {view(p.density, p.count)}}};
+  for (std::size_t v = 0; v < p.state.size(); ++v)
+    fields.push_back({"state_" + s.scene.state_names[v], "1", {view(p.state[v], p.count)}});
+  return fields;
+}
+
 double total_of(const host::Array& per_mass, const host::Array& mass, int count) {
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += per_mass[i] * mass[i];
@@ -153,7 +165,7 @@ Recorder<Geometry>::Recorder(const host::Simulation<Geometry>& s, const host::Ru
   write_constants(s);
 }
 
-/// What never changes of a result, and the scene beside it.
+/// Writes what does not change in time: masses, first positions, radii of the outline; and scene.toml.
 template <class Geometry> void Recorder<Geometry>::write_constants(const host::Simulation<Geometry>& s) {
   const auto& p = s.particles;
   const std::vector<host::Field> fields{{"mass", "kg", {view(p.mass, p.count)}},
@@ -219,14 +231,8 @@ template <class Geometry> void Recorder<Geometry>::write_snapshot(const host::Si
   if (s.time == last_snapshot) return;
   last_snapshot = s.time;
   const auto& p = s.particles;
-  std::vector<host::Field> fields{{"position", "m", views(p.position, p.count)},
-                                  {"velocity", "m/s", views(p.velocity, p.count)},
-                                  {"stress", "Pa", views(p.stress, p.count)},
-                                  {"density", "kg/m3", {view(p.density, p.count)}}};
-  for (std::size_t v = 0; v < p.state.size(); ++v)
-    fields.push_back({"state_" + s.scene.state_names[v], "1", {view(p.state[v], p.count)}});
   heights = host::outline(p, s.kernel, abscissa, s.scene.sector);
-  result.snapshot(s.time, fields, std::span(p.id).first(p.count), heights);
+  result.snapshot(s.time, particle_fields(s), std::span(p.id).first(p.count), heights);
 }
 
 template <class Geometry>

@@ -8,7 +8,7 @@
 
 namespace drivers {
 
-/// What a wall has taken up since the start, and the mean force on it since the sample before.
+/// Impulse and work of a wall since the start, and the mean force on it since the sample before.
 struct WallSample {
   host::WallLoad load;
   host::WallVector force{}; ///< N

@@ -5,6 +5,7 @@
 #include "drivers/run/build_hash.hpp"
 #include "drivers/version.hpp"
 #include "host/files/result_read.hpp"
+#include "host/files/seal.hpp"
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -104,6 +105,9 @@ std::optional<Resumption> find_resumption(const std::string& what, const std::st
     scene_name = (folder / "scene.toml").string();
     expected = stored_text(scene_name);
   }
+  if (const auto result = folder / "result.h5"; fs::exists(result) && !host::has_intact_seal(result))
+    spdlog::warn("{}: damaged or cut short; what it held is written again from the checkpoint",
+                 result.string());
   if (host::is_complete_result(folder / "result.h5")) {
     remove_checkpoints(folder);
     fs::remove_all(

@@ -140,7 +140,8 @@ void print_table(const host::Scene& scene, const Summary& summary, const std::st
   fmt::print("\nresults: {}\n", file);
 }
 
-/// Ends a run whose latest sample shows energy from nowhere.
+/// Throws if kinetic and potential energy of the latest sample exceed what gravity and walls have given, or if the
+/// energy balance is open.
 template <class Geometry>
 void check_latest(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
   const Sample& last = recorder.samples().back();
@@ -152,7 +153,7 @@ void check_latest(const host::Simulation<Geometry>& s, const Recorder<Geometry>&
   host::check_work(s);
 }
 
-/// Warns of energy that pairs made and viscosity took: too little to end the run, too much to pass unseen.
+/// Warns if the stress of pairs did spurious positive work, which the viscosity dissipated, above `suspect_pair_gain`.
 template <class Geometry>
 void warn_of_pairs(const host::Simulation<Geometry>& s, const Recorder<Geometry>& recorder) {
   const auto work = [](const Sample& sample) { return host::pair_work(sample.work); };
@@ -187,7 +188,7 @@ void advance(host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorde
   }
 }
 
-/// The last state of a run that fails; the failure itself is what to report.
+/// Writes the last state of a run that fails. An error here is dropped: the failure itself is reported.
 template <class Geometry>
 void keep_last_state(const host::Simulation<Geometry>& simulation, Recorder<Geometry>& recorder) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/study/parameter_sets.hpp"
 #include "drivers/files/toml_table.hpp"
-#include <H5Cpp.h>
+#include "host/files/hdf5_read.hpp"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -21,11 +21,7 @@ std::optional<double> released_void_ratio(const StudyColumn& column) {
                     fmt::format("column_{}_{}_{}.h5", column.shape(), column.packing(), column.aspect());
   if (!fs::exists(path)) return std::nullopt;
   try {
-    double value = 0;
-    H5::H5File(path.string(), H5F_ACC_RDONLY)
-        .openAttribute("void_ratio")
-        .read(H5::PredType::NATIVE_DOUBLE, &value);
-    return value;
+    return host::number_attribute<double>(host::open_to_read(path), "void_ratio");
   } catch (const H5::Exception& error) {
     throw std::runtime_error(
         fmt::format("{}: expected the attribute void_ratio: {}", path.string(), error.getDetailMsg()));

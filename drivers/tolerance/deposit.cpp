@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/tolerance/deposit.hpp"
-#include "host/files/hdf5_write.hpp"
+#include "host/files/hdf5_read.hpp"
 #include "host/files/result_read.hpp"
 #include <algorithm>
 #include <cmath>
@@ -15,19 +15,11 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
-std::vector<double> values_of(const H5::H5File& file, const std::string& name) {
-  const auto dataset = file.openDataSet(name);
-  std::vector<double> values(std::size_t(dataset.getSpace().getSimpleExtentNpoints()));
-  if (!values.empty()) dataset.read(values.data(), H5::PredType::NATIVE_DOUBLE);
-  return values;
-}
-
 /// Runs `read` on the open file and turns HDF5's exceptions into one line.
 template <class Read> auto reading(const std::filesystem::path& path, const Read& read) {
   H5::Exception::dontPrint();
   try {
-    const H5::H5File file(path.string(), H5F_ACC_RDONLY);
-    return read(file);
+    return read(host::open_to_read(path));
   } catch (const H5::Exception& error) {
     fail(path, "cannot be read: " + error.getDetailMsg());
   }
@@ -67,8 +59,8 @@ Deposit read_deposit(const std::filesystem::path& result) {
             {}};
   d.rate = d.particles * d.steps / d.seconds;
   d.outline = reading(result, [&](const H5::H5File& file) {
-    return Outline{values_of(file, "outline/r"),
-                   values_of(file, fmt::format("snapshots/{:04}/outline", run.snapshots - 1))};
+    return Outline{host::read_array<double>(file, "outline/r"),
+                   host::read_array<double>(file, fmt::format("snapshots/{:04}/outline", run.snapshots - 1))};
   });
   return d;
 }
@@ -76,11 +68,11 @@ Deposit read_deposit(const std::filesystem::path& result) {
 Deposit read_dem_deposit(const std::filesystem::path& path, double radius) {
   return reading(path, [&](const H5::H5File& file) {
     Deposit d;
-    d.height = values_of(file, "height/surface").back() / radius;
-    d.radius = values_of(file, "front/one_grain").back() / radius;
+    d.height = host::read_array<double>(file, "height/surface").back() / radius;
+    d.radius = host::read_array<double>(file, "front/one_grain").back() / radius;
     d.rest = std::numeric_limits<double>::quiet_NaN();
-    d.outline.radii = values_of(file, "outline/radius");
-    d.outline.heights = last(values_of(file, "outline/height"), d.outline.radii.size());
+    d.outline.radii = host::read_array<double>(file, "outline/radius");
+    d.outline.heights = last(host::read_array<double>(file, "outline/height"), d.outline.radii.size());
     return d;
   });
 }

@@ -2,7 +2,8 @@
 #include "host/files/checkpoint.hpp"
 #include "host/engine/lists.hpp"
 #include "host/files/checkpoint_items.hpp"
-#include "host/files/hdf5_write.hpp"
+#include "host/files/hdf5_read.hpp"
+#include "host/files/seal.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/scheme/geometry.hpp"
 #include <fmt/format.h>
@@ -11,61 +12,32 @@
 namespace host {
 namespace {
 
-constexpr int checkpoint_version = 5;
+constexpr int checkpoint_version = 6;
 constexpr auto kind = "checkpoint_version"; ///< attribute that only checkpoints have
-constexpr hsize_t values_per_chunk = 65536;
 
-const H5::PredType& type_of(double) {
-  return H5::PredType::NATIVE_DOUBLE;
-}
-const H5::PredType& type_of(long) {
-  return H5::PredType::NATIVE_LONG;
-}
-const H5::PredType& type_of(int) {
-  return H5::PredType::NATIVE_INT;
-}
-
-/// Writes every item as a dataset with a checksum.
+/// Writes every item as an array.
 struct Writer {
   H5::Group group;
 
-  template <class T> void put(const std::string& name, const T* values, hsize_t count) {
-    const hsize_t chunk = std::clamp<hsize_t>(count, 1, values_per_chunk);
-    H5::DSetCreatPropList properties;
-    properties.setChunk(1, &chunk);
-    H5Pset_fletcher32(properties.getId());
-    const auto dataset = group.createDataSet(name, type_of(T{}), H5::DataSpace(1, &count), properties);
-    if (count > 0) dataset.write(values, type_of(T{}));
-  }
   template <class T, class A> void operator()(const std::string& name, std::vector<T, A>& values) {
-    put(name, values.data(), values.size());
+    write_array(group, name, values.data(), {values.size()});
   }
   template <class T>
   requires std::is_arithmetic_v<T>
-  void operator()(const std::string& name, T& value) { put(name, &value, 1); }
+  void operator()(const std::string& name, T& value) { write_array(group, name, &value, {1}); }
 };
 
 struct Reader {
   H5::Group group;
 
   template <class T, class A> void operator()(const std::string& name, std::vector<T, A>& values) {
-    const auto dataset = group.openDataSet(name);
-    values.resize(std::size_t(dataset.getSpace().getSimpleExtentNpoints()));
-    if (!values.empty()) dataset.read(values.data(), type_of(T{}));
+    const auto read = read_array<T>(group, name);
+    values.assign(read.begin(), read.end());
   }
   template <class T>
   requires std::is_arithmetic_v<T>
-  void operator()(const std::string& name, T& value) {
-    std::vector<T> one;
-    (*this)(name, one);
-    value = one.at(0);
-  }
+  void operator()(const std::string& name, T& value) { value = read_array<T>(group, name).at(0); }
 };
-
-void write_text(const H5::Group& group, const std::string& name, const std::string& text) {
-  const auto type = text_type(text);
-  group.createDataSet(name, type, H5::DataSpace(H5S_SCALAR)).write(text, type);
-}
 
 void write_header(const H5::H5File& file, const CheckpointHeader& header) {
   attribute(file, kind, checkpoint_version);
@@ -80,37 +52,6 @@ void write_header(const H5::H5File& file, const CheckpointHeader& header) {
   write_text(file, "scene", header.scene);
 }
 
-std::string text_attribute(const H5::H5File& file, const std::string& name) {
-  std::string text;
-  const auto a = file.openAttribute(name);
-  a.read(a.getStrType(), text);
-  return text;
-}
-
-double number_attribute(const H5::H5File& file, const std::string& name) {
-  double number = 0;
-  file.openAttribute(name).read(real(), &number);
-  return number;
-}
-
-std::string text_dataset(const H5::Group& group, const std::string& name) {
-  std::string text;
-  const auto dataset = group.openDataSet(name);
-  dataset.read(text, dataset.getStrType());
-  return text;
-}
-
-/// Reads every dataset of numbers, and so checks its sum.
-void read_all(const H5::Group& group) {
-  std::vector<double> values;
-  for (hsize_t k = 0; k < group.getNumObjs(); ++k) {
-    const auto dataset = group.openDataSet(group.getObjnameByIdx(k));
-    if (dataset.getTypeClass() == H5T_STRING) continue;
-    values.resize(std::size_t(dataset.getSpace().getSimpleExtentNpoints()));
-    if (!values.empty()) dataset.read(values.data(), real());
-  }
-}
-
 void write_progress(const H5::Group& group, RunProgress progress) {
   each_stored_item(progress, Writer{group});
   write_text(group, "xdmf", progress.result.xdmf);
@@ -122,8 +63,8 @@ void write_progress(const H5::Group& group, RunProgress progress) {
 RunProgress read_progress(const H5::Group& group) {
   RunProgress progress;
   each_stored_item(progress, Reader{group});
-  progress.result.xdmf = text_dataset(group, "xdmf");
-  std::istringstream columns(text_dataset(group, "column_names"));
+  progress.result.xdmf = read_text(group, "xdmf");
+  std::istringstream columns(read_text(group, "column_names"));
   for (Quantity c; columns >> c.name >> c.unit;) progress.result.columns.push_back(c);
   progress.result.series.resize(progress.result.columns.size());
   return progress;
@@ -145,14 +86,17 @@ void keep_previous(const std::filesystem::path& path, const std::filesystem::pat
   throw std::runtime_error(fmt::format("{}: {}", path.string(), why));
 }
 
-/// Runs `read` and turns what HDF5 says into one line.
+constexpr auto unreadable = "not a readable checkpoint; it may have been cut short or damaged";
+
+/// Runs `read` if the checksum of the file fits, and turns what HDF5 says into one line.
 template <class F> auto guarded_read(const std::filesystem::path& path, F&& read) {
   H5::Exception::dontPrint();
   if (!std::filesystem::is_regular_file(path)) refuse(path, "no such checkpoint");
+  if (!has_intact_seal(path)) refuse(path, unreadable);
   try {
     return read();
   } catch (const H5::Exception&) {
-    refuse(path, "not a readable checkpoint; it may have been cut short or damaged");
+    refuse(path, unreadable);
   } catch (const std::out_of_range&) {
     refuse(path, "not a readable checkpoint; a number is missing");
   }
@@ -194,7 +138,7 @@ std::string checkpoint_image(const CheckpointHeader& header, Simulation<Geometry
   write_header(file, header);
   each_stored_item(simulation, Writer{file.createGroup("simulation")});
   write_progress(file.createGroup("run"), progress);
-  return file_image(file);
+  return sealed(file_image(file));
 }
 
 template <class Geometry>
@@ -211,17 +155,19 @@ void write_checkpoint(const std::filesystem::path& path, const std::filesystem::
 CheckpointHeader verified_checkpoint(const std::filesystem::path& path) {
   return guarded_read(path, [&] {
     const auto file = open_to_read(path);
-    int version = 0;
-    file.openAttribute(kind).read(H5::PredType::NATIVE_INT, &version);
+    const int version = number_attribute<int>(file, kind);
     if (version != checkpoint_version)
       refuse(path,
              fmt::format("a checkpoint of layout {}, this program reads {}", version, checkpoint_version));
-    for (const auto* group : {"simulation", "run"}) read_all(file.openGroup(group));
-    return CheckpointHeader{text_dataset(file, "scene"),        text_attribute(file, "simsand_version"),
-                            text_attribute(file, "compiler"),   text_attribute(file, "geometry"),
-                            text_attribute(file, "library"),    text_attribute(file, "library_hash"),
-                            number_attribute(file, "time"),     number_attribute(file, "steps"),
-                            number_attribute(file, "particles")};
+    return CheckpointHeader{read_text(file, "scene"),
+                            text_attribute(file, "simsand_version"),
+                            text_attribute(file, "compiler"),
+                            text_attribute(file, "geometry"),
+                            text_attribute(file, "library"),
+                            text_attribute(file, "library_hash"),
+                            number_attribute<double>(file, "time"),
+                            number_attribute<double>(file, "steps"),
+                            number_attribute<double>(file, "particles")};
   });
 }
 

@@ -33,7 +33,7 @@ struct RunProgress {
   Spent spent;                                                   ///< by all parts of the run
 };
 
-/// The bytes of a checkpoint.
+/// The bytes of a checkpoint, with a checksum over all of them (seal.hpp).
 template <class Geometry>
 std::string checkpoint_image(const CheckpointHeader& header, Simulation<Geometry>& simulation,
                              const RunProgress& progress);
@@ -45,7 +45,7 @@ void write_checkpoint(const std::filesystem::path& path, const std::filesystem::
                       const CheckpointHeader& header, Simulation<Geometry>& simulation,
                       const RunProgress& progress);
 
-/// Header of a checkpoint all of which can be read. Throws std::runtime_error, one line, if the file is missing,
+/// Header of a checkpoint whose checksum fits. Throws std::runtime_error, one line, if the file is missing,
 /// cut short, damaged or no checkpoint.
 CheckpointHeader verified_checkpoint(const std::filesystem::path& path);
 /// The part of it that is no particles. Errors the same.

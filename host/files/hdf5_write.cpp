@@ -11,6 +11,21 @@ namespace host {
 namespace {
 
 constexpr hsize_t rows_per_chunk = 16384; ///< 128 KiB per component, within HDF5's chunk cache
+constexpr hsize_t rows_per_piece = 512;   ///< of a growing array
+
+H5::StrType text_type(const std::string& text) {
+  H5::StrType type(H5::PredType::C_S1, std::max<std::size_t>(text.size(), 1));
+  type.setCset(H5T_CSET_UTF8);
+  return type;
+}
+
+template <class T> void number(const H5::H5Object& object, const std::string& name, T value) {
+  object.createAttribute(name, number_type<T>(), H5::DataSpace(H5S_SCALAR)).write(number_type<T>(), &value);
+}
+
+void write_unit(const H5::Group& group, const std::string& name, const std::string& unit) {
+  attribute(group.openDataSet(name), "unit", unit);
+}
 
 } // namespace
 
@@ -65,20 +80,29 @@ std::string file_image(const H5::H5File& file) {
   return bytes;
 }
 
-H5::H5File open_to_read(const std::filesystem::path& path) {
-  H5::FileAccPropList access;
-  H5Pset_file_locking(access.getId(), false, true);
-  return {path.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
+void write_array(const H5::Group& group, const std::string& name, const H5::PredType& type,
+                 const void* values, const Extents& extents, Storage storage) {
+  const int rank = int(extents.size());
+  const Extents unlimited(extents.size(), H5S_UNLIMITED);
+  const H5::DataSpace space(rank, extents.data(), storage == Storage::growing ? unlimited.data() : nullptr);
+  H5::DSetCreatPropList properties;
+  if (storage != Storage::plain) {
+    Extents chunk = extents;
+    chunk.front() = storage == Storage::growing ? rows_per_piece
+                                                : std::clamp<hsize_t>(extents.front(), 1, rows_per_chunk);
+    properties.setChunk(rank, chunk.data());
+  }
+  if (storage == Storage::compressed) {
+    properties.setShuffle();
+    properties.setDeflate(1);
+  }
+  const auto dataset = group.createDataSet(name, type, space, properties);
+  if (space.getSimpleExtentNpoints() > 0) dataset.write(values, type);
 }
 
-const H5::PredType& real() {
-  return H5::PredType::NATIVE_DOUBLE;
-}
-
-H5::StrType text_type(const std::string& text) {
-  H5::StrType type(H5::PredType::C_S1, std::max<std::size_t>(text.size(), 1));
-  type.setCset(H5T_CSET_UTF8);
-  return type;
+void write_text(const H5::Group& group, const std::string& name, const std::string& text) {
+  const auto type = text_type(text);
+  group.createDataSet(name, type, H5::DataSpace(H5S_SCALAR)).write(text, type);
 }
 
 void attribute(const H5::H5Object& object, const std::string& name, const std::string& text) {
@@ -87,47 +111,35 @@ void attribute(const H5::H5Object& object, const std::string& name, const std::s
 }
 
 void attribute(const H5::H5Object& object, const std::string& name, int value) {
-  object.createAttribute(name, H5::PredType::NATIVE_INT, H5::DataSpace(H5S_SCALAR))
-      .write(H5::PredType::NATIVE_INT, &value);
+  number(object, name, value);
+}
+
+void attribute(const H5::H5Object& object, const std::string& name, std::int64_t value) {
+  number(object, name, value);
 }
 
 void attribute(const H5::H5Object& object, const std::string& name, double value) {
-  object.createAttribute(name, real(), H5::DataSpace(H5S_SCALAR)).write(real(), &value);
+  number(object, name, value);
 }
 
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values, int components) {
-  const hsize_t rows = values.size() / components, columns = components;
-  const hsize_t size[2] = {rows, columns}, chunk[2] = {std::clamp<hsize_t>(rows, 1, rows_per_chunk), columns};
-  const int rank = components > 1 ? 2 : 1;
-  H5::DSetCreatPropList properties;
-  properties.setChunk(rank, chunk);
-  properties.setShuffle();
-  properties.setDeflate(1);
-  const auto dataset = group.createDataSet(name, real(), H5::DataSpace(rank, size), properties);
+  const hsize_t columns = hsize_t(components), rows = values.size() / columns;
+  write_array(group, name, values.data(), components > 1 ? Extents{rows, columns} : Extents{rows},
+              Storage::compressed);
+  write_unit(group, name, unit);
+}
+
+void write_scalar(const H5::Group& group, const std::string& name, const std::string& unit, double value) {
+  const auto dataset = group.createDataSet(name, number_type<double>(), H5::DataSpace(H5S_SCALAR));
+  dataset.write(&value, number_type<double>());
   attribute(dataset, "unit", unit);
-  if (!values.empty()) dataset.write(values.data(), real());
 }
 
 void write_column(const H5::Group& group, const std::string& name, const std::string& unit,
                   const std::vector<double>& values) {
-  constexpr hsize_t rows_per_chunk = 512;
-  const hsize_t rows = values.size(), unlimited = H5S_UNLIMITED;
-  H5::DSetCreatPropList properties;
-  properties.setChunk(1, &rows_per_chunk);
-  const auto dataset = group.createDataSet(name, real(), H5::DataSpace(1, &rows, &unlimited), properties);
-  attribute(dataset, "unit", unit);
-  if (rows > 0) dataset.write(values.data(), real());
-}
-
-bool is_whole(const std::filesystem::path& file, const std::string& name, const std::string& last) {
-  try {
-    const auto group = open_to_read(file).openGroup(name);
-    for (hsize_t k = 0; k < group.getNumObjs(); ++k) group.openDataSet(group.getObjnameByIdx(k));
-    return group.attrExists(last);
-  } catch (const H5::Exception&) {
-    return false;
-  }
+  write_array(group, name, values.data(), {values.size()}, Storage::growing);
+  write_unit(group, name, unit);
 }
 
 } // namespace host

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the result file asks of HDF5: errors in one line, attributes, datasets with a unit.
+// Writing of HDF5: errors in one line, files that are built in memory, arrays, texts and attributes. Everything that the
+// project writes as HDF5 goes through here.
 #pragma once
 #include <H5Cpp.h>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace host {
@@ -36,26 +39,48 @@ H5::H5File memory_file();
 /// The bytes of such a file, as they belong on disk.
 std::string file_image(const H5::H5File& file);
 
-/// Opens for reading. Takes no lock, for files here never change in place. Throws H5::Exception.
-H5::H5File open_to_read(const std::filesystem::path& path);
+/// The HDF5 type of a number.
+template <class T> const H5::PredType& number_type() {
+  if constexpr (std::is_same_v<T, double>)
+    return H5::PredType::NATIVE_DOUBLE;
+  else if constexpr (std::is_same_v<T, unsigned char>)
+    return H5::PredType::NATIVE_UCHAR;
+  else if constexpr (sizeof(T) == 4)
+    return H5::PredType::NATIVE_INT32;
+  else
+    return H5::PredType::NATIVE_INT64;
+}
 
-const H5::PredType& real();
-H5::StrType text_type(const std::string& text);
+/// Lengths of an array, the last extent fastest.
+using Extents = std::vector<hsize_t>;
+
+/// How an array lies in the file: as it is, compressed, or in pieces so that it could grow.
+enum class Storage { plain, compressed, growing };
+
+void write_array(const H5::Group& group, const std::string& name, const H5::PredType& type,
+                 const void* values, const Extents& extents, Storage storage);
+template <class T>
+void write_array(const H5::Group& group, const std::string& name, const T* values, const Extents& extents,
+                 Storage storage = Storage::plain) {
+  write_array(group, name, number_type<T>(), values, extents, storage);
+}
+
+void write_text(const H5::Group& group, const std::string& name, const std::string& text);
 
 void attribute(const H5::H5Object& object, const std::string& name, const std::string& text);
 void attribute(const H5::H5Object& object, const std::string& name, int value);
+void attribute(const H5::H5Object& object, const std::string& name, std::int64_t value);
 void attribute(const H5::H5Object& object, const std::string& name, double value);
 
-/// A dataset of n rows, (n) or (n, components).
+/// Numbers with a unit: n rows, (n) or (n, components), compressed.
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values, int components = 1);
 
-/// A column of numbers that may be empty.
+/// A scalar with a unit.
+void write_scalar(const H5::Group& group, const std::string& name, const std::string& unit, double value);
+
+/// A column of numbers with a unit; it may be empty.
 void write_column(const H5::Group& group, const std::string& name, const std::string& unit,
                   const std::vector<double>& values);
-
-/// True if the file can be read and its group `name` has all of its datasets and the attribute `last`, which was
-/// written last.
-bool is_whole(const std::filesystem::path& file, const std::string& name, const std::string& last);
 
 } // namespace host

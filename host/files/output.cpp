@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host/files/output.hpp"
 #include "host/files/field_rows.hpp"
+#include "host/files/hdf5_read.hpp"
 #include "host/files/hdf5_write.hpp"
+#include "host/files/seal.hpp"
 #include "host/files/whole_file.hpp"
 #include "host/files/xdmf.hpp"
 #include <algorithm>
@@ -78,7 +80,7 @@ struct ResultFile::Impl {
   void write_part(const std::string& name, const std::function<void(const H5::Group&)>& fill) const {
     const auto file = memory_file();
     fill(file.createGroup(name));
-    write_whole(part(name), file_image(file));
+    write_whole(part(name), sealed(file_image(file)));
   }
 
   /// All but snapshots and constants.
@@ -90,16 +92,11 @@ struct ResultFile::Impl {
     attribute(file, "geometry", header.geometry);
     attribute(file, "dimension", header.dimension);
     attribute(file, "complete", int(complete));
-    const auto text = text_type(header.scene);
-    file.createDataSet("scene", text, H5::DataSpace(H5S_SCALAR)).write(header.scene, text);
+    write_text(file, "scene", header.scene);
     const auto series = file.createGroup("series"), totals = file.createGroup("summary");
     for (std::size_t c = 0; c < columns.size(); ++c)
       write_column(series, columns[c].name, columns[c].unit, done.series[c]);
-    for (const auto& [name, entry] : summary) {
-      const auto dataset = totals.createDataSet(name, real(), H5::DataSpace(H5S_SCALAR));
-      attribute(dataset, "unit", entry.first);
-      dataset.write(&entry.second, real());
-    }
+    for (const auto& [name, entry] : summary) write_scalar(totals, name, entry.first, entry.second);
     const auto outline = file.createGroup("outline");
     if (!radii.empty()) write_dataset(outline, "r", "m", radii);
     file.createGroup("snapshots");
@@ -118,7 +115,7 @@ struct ResultFile::Impl {
     };
     link(constants, constants);
     for (const int s : kept()) link(name_of(s), "snapshots/" + name_of(s));
-    write_whole(path, file_image(file));
+    write_whole(path, sealed(file_image(file)));
     pending = false;
     written = Clock::now();
     cost = written - start;
@@ -133,10 +130,10 @@ struct ResultFile::Impl {
 
   /// Replaces the result by one that holds the parts.
   void join() const {
-    require_room(path, joined_size()); // HDF5 crashes where it cannot close a file
+    require_room(path, joined_size()); // HDF5 crashes if the disk is full when it closes a file
     {
       H5::FileAccPropList access;
-      H5Pset_file_locking(access.getId(), true, true); // where the disk knows no locks, go without
+      H5Pset_file_locking(access.getId(), true, true); // no error on file systems without locks
       const H5::H5File file(aside(path).string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, access);
       write_head(file, true);
       const auto copy = [&](const std::string& name, const std::string& at) {
@@ -148,14 +145,14 @@ struct ResultFile::Impl {
       for (const int s : kept()) copy(name_of(s), "snapshots/" + name_of(s));
       file.flush(H5F_SCOPE_GLOBAL);
     }
+    append_seal(aside(path));
     take_place(path);
   }
 
   /// Leaves out the snapshots that cannot be read.
   void drop_unreadable() {
     for (const int s : kept()) {
-      // Its time is written last.
-      if (is_whole(part(name_of(s)), name_of(s), "time")) continue;
+      if (has_intact_seal(part(name_of(s)))) continue;
       done.lost.push_back(s);
       done.xdmf = without_xdmf_grid(done.xdmf, "/snapshots/" + name_of(s) + "/");
       left_out.push_back(part(name_of(s)));
@@ -189,7 +186,7 @@ ResultFile::~ResultFile() {
   const QuietDestructors quiet;
   try {
     if (!impl->closed && impl->pending) impl->write_links();
-  } catch (...) {} // the error that led here is on its way
+  } catch (...) {} // a destructor must not throw; the error that led here is being handled
   impl.reset();
 }
 
@@ -199,9 +196,7 @@ void ResultFile::particles(std::span<const Field> fields, std::span<const std::i
     impl->write_part(constants, [&](const H5::Group& group) {
       std::vector<std::int64_t> number(impl->header.particles);
       std::iota(number.begin(), number.end(), 0);
-      const hsize_t count = number.size();
-      group.createDataSet("number", H5::PredType::NATIVE_INT64, H5::DataSpace(1, &count))
-          .write(number.data(), H5::PredType::NATIVE_INT64);
+      write_array(group, "number", number.data(), {number.size()});
       write_fields(group, fields, values);
     });
   });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is in a result file or a checkpoint, in brief: everything but the particles.
+// What is in a result file or a checkpoint, in brief: everything but the particles. A file whose checksum does not fit
+// (seal.hpp) counts as unreadable.
 #pragma once
 #include "host/files/output.hpp"
 

@@ -19,7 +19,7 @@ struct Descriptor {
   }
 };
 
-/// Throws what the system says, after the unfinished file is gone.
+/// Removes the unfinished file and throws the system's error.
 [[noreturn]] void give_up(const std::filesystem::path& path, int error) {
   std::error_code ignored;
   std::filesystem::remove(aside(path), ignored);
@@ -36,7 +36,7 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-/// Some file systems know no fsync of this kind of file; that is no failure of the disk.
+/// fsync; EINVAL and ENOTSUP mean that the file system does not offer it, which is no failure of the disk.
 bool bring_to_disk(int descriptor) {
   return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP;
 }

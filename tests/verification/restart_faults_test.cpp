@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs that are killed, or out of disk, or whose files are damaged: what is lost, and that the rest goes on to the last
 // bit.
+#include "drivers/run/resume.hpp"
+#include "host/files/result_read.hpp"
 #include "tests/verification/restart_fixture.hpp"
+#include <fstream>
 #include <random>
 
 namespace {
@@ -125,6 +128,57 @@ TEST(Restart, ADamagedCheckpointIsNoticedAndTheOneBeforeIsTaken) {
   EXPECT_EQ(lost.status, 1);
   EXPECT_TRUE(lost.err.starts_with("simsand: cut/checkpoint_previous.h5: not a readable checkpoint"))
       << lost.err;
+}
+
+TEST(Restart, AnyFlippedBitOfACheckpointIsNoticedAndTheOneBeforeIsTaken) {
+  const Program program("restart_bits");
+  interrupt(program, SIGTERM);
+  const auto newest = program.folder / "cut/checkpoint.h5",
+             previous = program.folder / "cut/checkpoint_previous.h5";
+  const auto good = program.content("cut/checkpoint.h5");
+  EXPECT_EQ(drivers::find_resumption((program.folder / "cut").string(), "")->checkpoint, newest);
+  std::mt19937 random(20);
+  for (int flip = 0; flip < 200; ++flip) {
+    // The first and last bytes too: what HDF5 reads first, and the checksum itself.
+    const auto last = good.size() - 1;
+    const auto place = flip < 20   ? std::size_t(flip)
+                       : flip < 40 ? last - std::size_t(flip - 20)
+                                   : random() % good.size();
+    auto bytes = good;
+    bytes[place] = char(bytes[place] ^ (1 << random() % 8));
+    std::ofstream(newest, std::ios::binary) << bytes;
+    testing::internal::CaptureStderr();
+    const auto found = drivers::find_resumption((program.folder / "cut").string(), "");
+    const auto warning = testing::internal::GetCapturedStderr();
+    ASSERT_EQ(found->checkpoint, previous) << "byte " << place;
+    ASSERT_NE(warning.find("checkpoint.h5: not a readable checkpoint"), std::string::npos) << warning;
+    ASSERT_NE(warning.find("going on from the one before"), std::string::npos) << warning;
+  }
+  EXPECT_EQ(program.run("run -q -t 1 --resume cut").status, 0) << program.content("err");
+  expect_same(program.folder / "cut/result.h5", whole());
+}
+
+TEST(Restart, ADamagedResultIsNotTakenForACompleteOne) {
+  const Program program("restart_result_bits");
+  program.write("scene.toml", scene());
+  fs::remove_all(program.folder / "cut");
+  auto shorter = scene();
+  shorter.replace(shorter.find("time = 0.4"), 10, "time = 0.02");
+  program.write("scene.toml", shorter);
+  ASSERT_EQ(program.run("run -q -t 1 scene.toml -o cut").status, 0) << program.content("err");
+  const auto result = program.folder / "cut/result.h5";
+  const auto good = program.content("cut/result.h5");
+  EXPECT_TRUE(host::is_complete_result(result));
+  std::mt19937 random(21);
+  for (int flip = 0; flip < 200; ++flip) {
+    auto bytes = good;
+    const auto place = random() % good.size();
+    bytes[place] = char(bytes[place] ^ (1 << random() % 8));
+    std::ofstream(result, std::ios::binary) << bytes;
+    ASSERT_FALSE(host::is_complete_result(result)) << "byte " << place;
+    ASSERT_THROW(host::stored_scene(result), std::runtime_error) << "byte " << place;
+    ASSERT_THROW(host::read_stored_run(result), std::runtime_error) << "byte " << place;
+  }
 }
 
 TEST(Restart, AResultThatIsCutShortIsWrittenAgain) {
