@@ -98,6 +98,7 @@ template <class Geometry>
 void find_sight(const Particles<Geometry>& p, const std::vector<Surface<Geometry::dimension>>& surfaces,
                 const Images& images, const Records<Geometry>& records, NeighbourLists& lists) {
   constexpr int D = Geometry::dimension;
+  if (lists.screened_clusters.empty()) return;
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < lists.screened_clusters.size(); ++k) {
     const int c = lists.screened_clusters[k];
