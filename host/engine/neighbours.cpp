@@ -216,8 +216,12 @@ void find_neighbours(const Particles<Geometry>& p, const Images& images, const R
   }
 }
 
-/// Finds the clusters with screened images.
-static void make_room_for_sight(NeighbourLists& lists) {
+/// Finds the clusters with screened images. Reserves what all of `outer` would need, so that only a renewal of the outer
+/// lists asks for memory.
+static void make_room_for_sight(const NeighbourLists& outer, NeighbourLists& lists) {
+  const auto most = std::accumulate(outer.screened.begin(), outer.screened.end(), std::size_t(0));
+  lists.sight.reserve(lanes * most);
+  lists.screened_clusters.reserve(std::min(most, outer.screened.size()));
   lists.screened_clusters.clear();
   lists.sight_start.resize(lists.screened.size());
   int size = 0;
@@ -257,7 +261,7 @@ void prune(const Particles<Geometry>& p, const Records<Geometry>& records, doubl
     lists.total[c] = keep_until(end);
     lists.screened[c] = lists.total[c] - common;
   }
-  make_room_for_sight(lists);
+  make_room_for_sight(outer, lists);
 }
 
 template decltype(sort_particles<PlaneStrain>) sort_particles<PlaneStrain>;

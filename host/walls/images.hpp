@@ -7,6 +7,7 @@
 #include "host/engine/records.hpp"
 #include "host/scheme/medium.hpp"
 #include "host/walls/surface.hpp"
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,11 +22,12 @@ struct Image {
 /// particle, or its image in planes of symmetry.
 struct ImagePath {
   static constexpr int longest = 4;
-  int root = 0, length = 0;
-  std::array<int, longest> surface{};
+  int root = 0;
+  std::array<std::int16_t, longest> surface{};
+  std::int8_t length = 0;
   bool crowded = false;  ///< its root has images in several surfaces
   bool in_shell = false; ///< one of the surfaces is a shell
-  std::span<const int> all() const { return {surface.data(), std::size_t(length)}; }
+  std::span<const std::int16_t> all() const { return {surface.data(), std::size_t(length)}; }
 };
 
 /// What surfaces a cluster of particles is in reach of.
