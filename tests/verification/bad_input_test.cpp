@@ -306,7 +306,7 @@ TEST(BadInput, CommandLines) {
   expect_parts(simsand(""), {"ubcommand"});
   expect_parts(simsand("run"), {"SCENE"});
   expect_parts(simsand("element"), {"PATH"});
-  expect_parts(simsand("collapse"), {"ubcommand"});
+  expect_parts(simsand("collapse"), {"unknown command 'collapse'"});
   expect_parts(simsand("run --threads 0 scene.toml"), {"--threads"});
   expect_parts(simsand("run --fast scene.toml"), {"--fast"});
 }

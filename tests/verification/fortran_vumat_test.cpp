@@ -118,7 +118,7 @@ TEST(FortranElastic, MotionsThatCannotBeFollowedAreRefused) {
   refuses(motion("gradient = [-1, 0, 0, 0, 1, 0, 0, 0, 1]"),
           "path.toml:12: key 'stage.gradient': expected a deformation gradient of positive determinant");
   refuses(motion("gradient = [-1, 0, 0, 0, -1, 0, 0, 0, 1]"),
-          "path.toml:12: the straight way to the deformation gradient passes through a determinant of 0");
+          "path.toml:12: the straight line to the deformation gradient passes through a determinant of 0");
   refuses(motion("gradient = [1, 0, 0, 0, 1, 0, 0, 0]"), "path.toml:12: key 'stage.gradient': expected");
   refuses(motion("velocity_gradient = [0, 0, 0, 0, 0, 0, 0, 0, 0]\ngradient = [1, 0, 0, 0, 1, 0, 0, 0, 1]"),
           "expected only one of gradient, velocity_gradient");

@@ -42,7 +42,7 @@ TEST_P(StepFactor, BeyondTheStableIsSeen) {
   EXPECT_GE(file.openGroup("snapshots").getNumObjs(), 2) << "the first state and the last";
 }
 
-INSTANTIATE_TEST_SUITE_P(Guard, StepFactor, testing::Values(3.0, 5.0, 10.0));
+INSTANTIATE_TEST_SUITE_P(Guard, StepFactor, testing::Values(4.0, 5.0, 10.0));
 
 TEST(Guard, TheRingAtTheAxisCutsAxisymmetricStepsThatAreTooLarge) {
   auto scene = tests::column_scene({.spacing = 0.005, .end_time = 0.1}, "guard_ring");

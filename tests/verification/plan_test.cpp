@@ -54,11 +54,12 @@ TEST(Plan, HoldsWithinAFactorOfOneAndAHalf) {
   EXPECT_LT(std::abs(log_sum / cases), std::log(1.5));
 }
 
-TEST(Plan, AColumnBehindItsWallGoesToItsEnd) {
+TEST(Plan, AColumnBehindItsWallIsAtRestAtTheFirstSample) {
   const auto scene =
       tests::column_scene({.spacing = 0.005, .gate = "motion = \"fixed\"", .end_time = 0.1}, "plan_fixed");
   const auto plan = drivers::plan_run(scene, 0.05);
-  EXPECT_EQ(plan.end, 0.1);
+  EXPECT_EQ(plan.end, scene.sample_interval);
+  EXPECT_EQ(plan.latest_end, 0.1);
   const auto run = drivers::run_scene(scene, {.quiet = true});
   expect_within(1.1, plan.steps, value_of(run, "steps"), "steps");
 }
