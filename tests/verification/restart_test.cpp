@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs that are stopped go on to the last bit as if nothing had been. And what the program says when it cannot.
+#include "host/files/seal.hpp"
 #include "tests/verification/restart_fixture.hpp"
 
 namespace {
@@ -74,6 +75,17 @@ TEST(Restart, AmongMovingWallsEveryBitIsTheSame) {
   EXPECT_NE(program.run("info two/result.h5").out.find("wall ring"), std::string::npos);
 }
 
+/// Alters a file that ends with a checksum, and renews the checksum.
+template <class F> void alter_sealed(const fs::path& path, F&& alter) {
+  constexpr int seal_size = 16;
+  fs::resize_file(path, fs::file_size(path) - seal_size);
+  {
+    H5::H5File file(path.string(), H5F_ACC_RDWR);
+    alter(file);
+  }
+  host::append_seal(path);
+}
+
 TEST(Restart, RefusesWhatItCannotGoOnWith) {
   const Program program("restart_refused");
   interrupt(program, SIGKILL);
@@ -98,23 +110,22 @@ TEST(Restart, RefusesWhatItCannotGoOnWith) {
     return program.folder / name;
   };
   const auto old = copy("old");
-  for (const auto* name : {"checkpoint.h5", "checkpoint_previous.h5"}) {
-    H5::H5File file((old / name).string(), H5F_ACC_RDWR);
-    const int layout = 2;
-    file.openAttribute("checkpoint_version").write(H5::PredType::NATIVE_INT, &layout);
-  }
-  refuses("old", "a checkpoint of layout 2, this program reads 4");
+  for (const auto* name : {"checkpoint.h5", "checkpoint_previous.h5"})
+    alter_sealed(old / name, [](H5::H5File& file) {
+      const int layout = 2;
+      file.openAttribute("checkpoint_version").write(H5::PredType::NATIVE_INT, &layout);
+    });
+  refuses("old", "a checkpoint of layout 2, this program reads 6");
   EXPECT_TRUE(fs::exists(old / "checkpoint.h5")) << "for the program that wrote it";
   program.write("cut/scene.toml", changed);
   refuses("cut", "cut/scene.toml: key 'floor.friction'");
   fs::remove(program.folder / "cut/scene.toml");
-  {
-    H5::H5File file((copy("version") / "checkpoint.h5").string(), H5F_ACC_RDWR);
+  alter_sealed(copy("version") / "checkpoint.h5", [](H5::H5File& file) {
     file.removeAttr("simsand_version");
     const H5::StrType text(H5::PredType::C_S1, 5);
     file.createAttribute("simsand_version", text, H5::DataSpace(H5S_SCALAR))
         .write(text, std::string("0.0.1"));
-  }
+  });
   refuses("version", "checkpoint.h5: written by simsand 0.0.1, this is ");
   refuses("scene.toml -o cut --set floor.friction=0.4",
           "key 'floor.friction': expected 0.5 as in the checkpoint");
