@@ -4,7 +4,7 @@
 #include "drivers/files/scene_file.hpp"
 #include "host/engine/guard.hpp"
 #include "host/engine/integrate.hpp"
-#include "host/engine/simulation.hpp"
+#include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include <cstdio>
 #include <exception>
