@@ -28,6 +28,7 @@ inline host::Simulation<host::PlaneStrain> make_body(double spacing, double exte
       if (const Place x{(k + 0.5) * spacing, (l + 0.5) * spacing}; inside(x)) places.push_back(x);
   host::Scene scene;
   scene.geometry = host::GeometryKind::plane_strain;
+  scene.symmetric = false; // a body without planes of symmetry
   scene.spacing = spacing;
   scene.material = elastic_material();
   scene.bulk_density = body_density;
