@@ -65,6 +65,10 @@ Motion move(Particles<Geometry>& p, const Medium& medium, const MotionTerms<Geom
   const int blocks = (p.clusters() + together - 1) / together;
   const std::size_t walls = loads.size();
   buffers.threads.resize(std::size_t(omp_get_max_threads()));
+  for (auto& buffer : buffers.threads) {
+    buffer.near.reserve(terms.walls.before.size());
+    buffer.shares.reserve(terms.walls.before.size());
+  }
   buffers.motion.assign(blocks, {});
   buffers.loads.assign(blocks * walls, {});
 #pragma omp parallel for schedule(static)

@@ -20,6 +20,7 @@ template <class Geometry> void find_outdated(const Particles<Geometry>& p, long 
   for (int c = 0; c < p.clusters(); ++c) most = larger(load(&p.wave_speed[c * lanes]), most);
   const double slow = slower * largest(most);
   blocks.outdated.clear();
+  blocks.outdated.reserve(p.count); // a step asks for no memory
   for (int c = 0; c < p.clusters(); ++c) {
     Lane square{};
     for (const auto& stress : p.stress) {

@@ -104,6 +104,8 @@ void find_images(const Particles<Geometry>& p, const std::vector<Surface<Geometr
         add(images.first + g, position[g], s);
     if (surfaces[s].is_symmetry()) images.first_wall = images.first + int(images.list.size());
   }
+  images.list.shrink_to_fit();
+  images.paths.shrink_to_fit();
   mark_crowded(images);
   find_nearness(surfaces, reach, images);
 }
