@@ -130,7 +130,7 @@ def main():
     PROGRAM = (arguments.program or PROGRAM).resolve()
     names = list(SCENES)
     if arguments.quick:
-        names, arguments.tolerance, arguments.finest = ["ss_dense_a0.5", "es_loose_smooth_floor"], "12%", 20
+        names, arguments.tolerance, arguments.finest = ["ss_dense_a0.5", "ss_dense_a1"], "12%", 20
     folder = arguments.output.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
