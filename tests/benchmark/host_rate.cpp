@@ -8,6 +8,7 @@
 // additions, multiplications, square roots and divisions one each. Those of the material are not counted. Bytes
 // are those of the arrays that a stage reads and writes for a particle, and for pairs of the neighbours' records.
 #include "drivers/files/scene_file.hpp"
+#include "host/engine/gradient.hpp"
 #include "host/engine/step.hpp"
 #include "host/scheme/geometry.hpp"
 #include "tests/benchmark/peaks.hpp"
